@@ -121,7 +121,8 @@ void Migration<Exec, Real>::note_migrated_out(mpm::Points<Exec, Real>& points, c
     for (auto& of_rank : migrated_out_) { std::sort(of_rank.begin(), of_rank.end()); }
 }
 
-/// Gathers from all ranks the pages without an owner and their points on each, so that all decide alike.
+/// Gathers from all ranks the pages that sand has not been in and their points on each, so that all decide alike. Those
+/// without an owner go to the rank with most of these points.
 template<class Exec, class Real>
 void Migration<Exec, Real>::adopt_pages()
 {
@@ -158,7 +159,7 @@ void Migration<Exec, Real>::adopt_pages()
         keys.push_back(key);
         ranks.push_back(claim.rank);
     }
-    decomposition_.owners.add(keys, ranks);
+    decomposition_.owners.enter_sand(keys, ranks);
 }
 
 #define TREAD_INSTANTIATE(Exec, Real) template class Migration<Exec, Real>

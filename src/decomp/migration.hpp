@@ -18,9 +18,9 @@ public:
     explicit Migration(Decomposition<Exec>& decomposition);
 
     /// Migrates points; returns how many changed rank, over all ranks. Points that stay come first, in their order,
-    /// then arrivals by rank, each rank's in its order. A page without an owner is assigned to the rank with most of
-    /// its points, the lowest of equals. Point ranges must be rebuilt afterwards. With Checksums::on, NumericalError if
-    /// count, ids or masses of all points changed.
+    /// then arrivals by rank, each rank's in its order. A page without an owner that sand enters is assigned to the
+    /// rank with most of its points, the lowest of equals. Point ranges must be rebuilt afterwards. With Checksums::on,
+    /// NumericalError if count, ids or masses of all points changed.
     std::int64_t run(mpm::Points<Exec, Real>& points, const mpm::GridGeometry& geometry,
                      mpm::OrderScratch<Exec, Real>& scratch);
 

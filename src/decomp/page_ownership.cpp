@@ -45,21 +45,30 @@ Vec3<double> low_corner(const PageLattice& lattice, const mpm::Index3& page)
            (mpm::page_edge * Vec3<double>(page.x, page.y, page.z) + Vec3<double>::Constant(lattice.stencil_shift));
 }
 
+double width_of_page(const PageLattice& lattice) { return lattice.spacing * mpm::page_edge; }
+
+/// From a place to the page's cells, m2.
+double squared_distance_to(const PageLattice& lattice, const Vec3<double>& place, const mpm::Index3& page)
+{
+    const Vec3<double> low     = low_corner(lattice, page);
+    const Vec3<double> nearest = place.cwiseMax(low).cwiseMin(low + Vec3<double>::Constant(width_of_page(lattice)));
+    return (nearest - place).squaredNorm();
+}
+
 /// Whether the ball overlaps the page's cells.
 bool reaches(const PageLattice& lattice, const Vec3<double>& centre, double radius, const mpm::Index3& page)
 {
-    const double       width   = lattice.spacing * mpm::page_edge;
-    const Vec3<double> low     = low_corner(lattice, page);
-    const Vec3<double> nearest = centre.cwiseMax(low).cwiseMin(low + Vec3<double>::Constant(width));
-    return (nearest - centre).squaredNorm() <= radius * radius;
+    return squared_distance_to(lattice, centre, page) <= radius * radius;
 }
 
 } // namespace
 
-PageOwnership::PageOwnership(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank)
+PageOwnership::PageOwnership(const PageLattice& lattice, const std::vector<std::uint64_t>& key, const PageRanks& rank,
+                             const std::vector<std::uint8_t>& sand)
     : lattice_(lattice)
     , key_(key)
     , rank_(rank)
+    , sand_(sand)
     , all_(rank)
 {
     keep_each_once(all_);
@@ -69,6 +78,12 @@ std::size_t PageOwnership::last_up_to(std::uint64_t page_key) const
 {
     const auto after = std::upper_bound(key_.begin(), key_.end(), page_key);
     return after == key_.begin() ? 0 : static_cast<std::size_t>(after - key_.begin()) - 1;
+}
+
+bool PageOwnership::has_sand(std::uint64_t page_key) const
+{
+    const std::size_t at = last_up_to(page_key);
+    return key_[at] == page_key && sand_[at] != 0;
 }
 
 std::int32_t PageOwnership::nearest_owner(std::uint64_t page_key) const
@@ -105,46 +120,84 @@ std::uint64_t PageOwnership::page_of(const Vec3<double>& place) const
 
 std::int32_t PageOwnership::owner_of(const Vec3<double>& place) { return owner_of(page_of(place)); }
 
-auto PageOwnership::find_others(const mpm::Index3& page, std::int32_t reach) -> OwnedPages
+auto PageOwnership::find_others(const mpm::Index3& page, std::int32_t reach, Among among) -> OwnedPages
 {
     const std::int32_t own = owner_of(mpm::page_key(page));
     OwnedPages         others;
     for_each_around(page, reach,
                     [&](const mpm::Index3& at)
                     {
-                        const std::int32_t owner = owner_of(mpm::page_key(at));
+                        const std::uint64_t key = mpm::page_key(at);
+                        if (among == Among::with_sand && !has_sand(key)) { return; }
+                        const std::int32_t owner = owner_of(key);
                         if (owner != own) { others.push_back({at, owner}); }
                     });
     return others;
 }
 
-auto PageOwnership::others_near(std::uint64_t page_key, std::int32_t reach) -> const OwnedPages&
+auto PageOwnership::others_near(std::uint64_t page_key, std::int32_t reach, Among among) -> const OwnedPages&
 {
-    const auto [at, is_new] = others_[reach].try_emplace(page_key);
-    if (is_new) { at->second = find_others(mpm::page_coordinates(page_key), reach); }
+    const auto [at, is_new] = others_[{reach, among}].try_emplace(page_key);
+    if (is_new) { at->second = find_others(mpm::page_coordinates(page_key), reach, among); }
     return at->second;
 }
 
-bool PageOwnership::is_within(const Surroundings& around, std::int32_t rank)
+/// Stops at a page within the radius, since then it does not matter how near.
+double PageOwnership::distance_to_others(const Vec3<double>& place, double radius, Among among)
 {
-    return around.reach <= mpm::most_reach && owner_of(around.page) == rank &&
-           others_near(around.page, around.reach).empty();
+    const std::int32_t pages    = mpm::pages_reached(lattice_, radius);
+    const double       farthest = pages * width_of_page(lattice_);
+    double             nearest  = farthest * farthest;
+    for (const OwnedPage& other : others_near(page_of(place), pages, among))
+    {
+        nearest = std::min(nearest, squared_distance_to(lattice_, place, other.page));
+        if (nearest <= radius * radius) { break; }
+    }
+    return std::sqrt(nearest);
 }
 
-std::vector<std::int32_t> PageOwnership::owners_near(const Vec3<double>& centre, double radius)
+mpm::Reach PageOwnership::clear_of_others(std::int32_t rank, const Vec3<double>& place, const mpm::Reach& reach)
 {
-    const Surroundings around = mpm::surroundings(lattice_, centre, radius);
-    if (around.reach > mpm::most_reach) { return all_; }
-    std::vector<std::int32_t> ranks{owner_of(around.page)};
-    for (const OwnedPage& other : others_near(around.page, around.reach))
+    constexpr mpm::Reach unknown{0, 0};
+    const std::int32_t   pages = mpm::pages_reached(lattice_, std::max(reach.bodies, reach.sand));
+    if (pages > mpm::most_reach || owner_of(place) != rank) { return unknown; }
+    const double bodies = distance_to_others(place, reach.bodies, Among::all);
+    if (bodies <= reach.bodies) { return unknown; }
+    const double sand = distance_to_others(place, reach.sand, Among::with_sand);
+    return sand <= reach.sand ? unknown : mpm::Reach{bodies, sand};
+}
+
+bool PageOwnership::is_near(std::int32_t rank, const Vec3<double>& centre, double radius)
+{
+    const std::uint64_t page = page_of(centre);
+    if (owner_of(page) == rank) { return true; }
+    const OwnedPages& others = others_near(page, mpm::pages_reached(lattice_, radius), Among::all);
+    return std::any_of(others.begin(), others.end(),
+                       [&](const OwnedPage& other)
+                       { return other.owner == rank && reaches(lattice_, centre, radius, other.page); });
+}
+
+void PageOwnership::find_owners_near(const Vec3<double>& centre, const mpm::Reach& reach,
+                                     std::vector<std::int32_t>& ranks)
+{
+    if (mpm::pages_reached(lattice_, std::max(reach.bodies, reach.sand)) > mpm::most_reach)
     {
-        if (other.owner != ranks.back() && reaches(lattice_, centre, radius, other.page))
-        {
-            ranks.push_back(other.owner);
-        }
+        ranks = all_;
+        return;
     }
-    keep_each_once(ranks);
-    return ranks;
+    const std::uint64_t page = page_of(centre);
+    ranks.assign(1, owner_of(page));
+    const auto add = [&](double radius, Among among)
+    {
+        for (const OwnedPage& other : others_near(page, mpm::pages_reached(lattice_, radius), among))
+        {
+            const bool is_known = std::find(ranks.begin(), ranks.end(), other.owner) != ranks.end();
+            if (!is_known && reaches(lattice_, centre, radius, other.page)) { ranks.push_back(other.owner); }
+        }
+    };
+    add(reach.bodies, Among::all);
+    add(reach.sand, Among::with_sand);
+    std::sort(ranks.begin(), ranks.end());
 }
 
 } // namespace tread::decomp

@@ -117,8 +117,8 @@ public:
     /// Owning rank of a position.
     std::int32_t owner_of(const Vec3<double>& place) const
     {
-        return decomp::PageOwnership(lattice(), decomposition_.owners.keys(), decomposition_.owners.ranks())
-            .owner_of(place);
+        const auto& pages = decomposition_.owners;
+        return decomp::PageOwnership(lattice(), pages.keys(), pages.ranks(), pages.sand()).owner_of(place);
     }
 
 private:

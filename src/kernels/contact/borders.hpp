@@ -18,11 +18,18 @@ struct BorderReach
     double sand;         ///< distance within which the owner of sand must hold a body
 };
 
-/// A ball within which other ranks matter to a body.
+/// Balls within which other ranks matter to a body.
 struct BorderBody
 {
     Vec3<double> position; ///< m, of the body
-    double       radius;   ///< m
+    mpm::Reach   reach;    ///< m
+};
+
+/// A ball around a place in which all is known to be one rank's: its radius, m, for bodies and for sand.
+struct Clearance
+{
+    Vec3<double> position{0.0, 0.0, 0.0}; ///< m
+    mpm::Reach   within{-1.0, -1.0};      ///< nothing is known
 };
 
 template<class Exec>
@@ -30,38 +37,38 @@ struct Borders
 {
     explicit Borders(const Exec& exec)
         : bounding_radius(exec, "bounding radii of bodies")
-        , inside(exec, "surroundings inside a rank")
+        , clear(exec, "balls inside a rank")
         , body(exec, "bodies at borders")
         , ball(exec, "balls of bodies at borders")
         , at(exec, "bodies to set")
         , role(exec, "roles to set")
-        , around(exec, "surroundings to set")
+        , to_clear(exec, "balls to set")
     {
     }
 
-    Array<Exec, double>            bounding_radius; ///< m, of each body
-    Array<Exec, mpm::Surroundings> inside;          ///< of each body: the last that were this rank's alone
-    Array<Exec, std::int32_t>      body;            ///< those found last, ascending
-    Array<Exec, BorderBody>        ball;            ///< of each of them
+    Array<Exec, double>       bounding_radius; ///< m, of each body
+    Array<Exec, Clearance>    clear;           ///< around each body when it was looked at last
+    Array<Exec, std::int32_t> body;            ///< those found last, ascending
+    Array<Exec, BorderBody>   ball;            ///< of each of them
 
     // Scratch.
-    Array<Exec, std::int32_t>      at;
-    Array<Exec, std::int32_t>      role;
-    Array<Exec, mpm::Surroundings> around;
+    Array<Exec, std::int32_t> at;
+    Array<Exec, std::int32_t> role;
+    Array<Exec, Clearance>    to_clear;
 };
 
 /// Begins with `bounding_radius` (m) of each body, of which nothing is known.
 template<class Exec>
 void begin_borders(const Exec&, Borders<Exec>& borders, const std::vector<double>& bounding_radius);
 
-/// Forgets which surroundings are this rank's alone: owners of pages have changed.
+/// Forgets what is this rank's alone: owners of pages have changed.
 template<class Exec>
-void forget_inside(const Exec&, Borders<Exec>& borders);
+void forget_clearances(const Exec&, Borders<Exec>& borders);
 
-/// Takes these surroundings of these bodies as this rank's alone.
+/// Takes these balls around these bodies as this rank's alone.
 template<class Exec>
-void keep_inside(const Exec&, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
-                 const std::vector<mpm::Surroundings>& around);
+void keep_clearances(const Exec&, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
+                     const std::vector<Clearance>& clear);
 
 /// Largest own reach, bounding radius plus allowed displacement, m, of this rank's bodies: of all, and of the small
 /// ones. Waits.
@@ -69,10 +76,10 @@ template<class Exec>
 std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>& borders, dem::Pairs<Exec>& pairs,
                                       const dem::BodiesView& bodies);
 
-/// Lists this rank's bodies whose surroundings are not known to be this rank's alone. Waits for their number.
+/// Lists this rank's bodies that are not known to reach this rank's pages alone. Waits for their number.
 template<class Exec>
 void list_borders(const Exec&, Borders<Exec>& borders, dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies,
-                  const mpm::PageLattice& lattice, const BorderReach& reach);
+                  const BorderReach& reach);
 
 /// Sets the roles (dem::BodyRole) of these bodies, each of which occurs once.
 template<class Exec>

@@ -86,21 +86,21 @@ struct Ball
     TREAD_HD BorderBody operator()(std::int64_t b) const
     {
         const double met = own.is_large[b] != 0 ? reach.met_by_large : reach.met_by_small;
-        return {own.bodies.position[b], own.of(b) + (met > reach.sand ? met : reach.sand)};
+        return {own.bodies.position[b], {own.of(b) + met, own.of(b) + reach.sand}};
     }
 };
 
 struct IsAtBorder
 {
-    Ball                     ball;
-    mpm::PageLattice         lattice;
-    const mpm::Surroundings* inside;
+    Ball             ball;
+    const Clearance* clear;
 
     TREAD_HD bool operator()(std::int64_t b) const
     {
         if (!ball.own.bodies.is_owned(b)) { return false; }
-        const BorderBody body = ball(b);
-        return !(mpm::surroundings(lattice, body.position, body.radius) == inside[b]);
+        const BorderBody body  = ball(b);
+        const double     moved = (body.position - clear[b].position).norm();
+        return !(moved + body.reach.bodies < clear[b].within.bodies && moved + body.reach.sand < clear[b].within.sand);
     }
 };
 
@@ -128,22 +128,21 @@ template<class Exec>
 void begin_borders(const Exec& exec, Borders<Exec>& borders, const std::vector<double>& bounding_radius)
 {
     borders.bounding_radius.assign(bounding_radius);
-    borders.inside.resize(borders.bounding_radius.size());
-    forget_inside(exec, borders);
+    borders.clear.resize(borders.bounding_radius.size());
+    forget_clearances(exec, borders);
 }
 
 template<class Exec>
-void forget_inside(const Exec& exec, Borders<Exec>& borders)
+void forget_clearances(const Exec& exec, Borders<Exec>& borders)
 {
-    for_each(exec, "forget surroundings", borders.inside.size(),
-             border_steps::Fill<mpm::Surroundings>{{}, borders.inside.data()});
+    for_each(exec, "forget clearances", borders.clear.size(), border_steps::Fill<Clearance>{{}, borders.clear.data()});
 }
 
 template<class Exec>
-void keep_inside(const Exec& exec, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
-                 const std::vector<mpm::Surroundings>& around)
+void keep_clearances(const Exec& exec, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
+                     const std::vector<Clearance>& clear)
 {
-    border_steps::set_at(exec, "keep surroundings", body, around, borders.at, borders.around, borders.inside.data());
+    border_steps::set_at(exec, "keep clearances", body, clear, borders.at, borders.to_clear, borders.clear.data());
 }
 
 template<class Exec>
@@ -160,10 +159,10 @@ std::array<double, 2> largest_reaches(const Exec& exec, Borders<Exec>& borders, 
 
 template<class Exec>
 void list_borders(const Exec& exec, Borders<Exec>& borders, dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies,
-                  const mpm::PageLattice& lattice, const BorderReach& reach)
+                  const BorderReach& reach)
 {
     const border_steps::Ball ball{border_steps::own_reach(borders, pairs, bodies), reach};
-    dem::select(exec, "bodies at borders", bodies.count, border_steps::IsAtBorder{ball, lattice, borders.inside.data()},
+    dem::select(exec, "bodies at borders", bodies.count, border_steps::IsAtBorder{ball, borders.clear.data()},
                 pairs.search.found, pairs.sort, borders.body);
     borders.ball.resize(borders.body.size());
     for_each(exec, "balls of bodies at borders", borders.body.size(),
@@ -191,13 +190,13 @@ void erase_places(const Exec& exec, const Array<Exec, std::int32_t>& body, Array
 
 #define TREAD_INSTANTIATE(Exec)                                                                                         \
     template void                  begin_borders(const Exec&, Borders<Exec>&, const std::vector<double>&);              \
-    template void                  forget_inside(const Exec&, Borders<Exec>&);                                          \
-    template void                  keep_inside(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,           \
-                                               const std::vector<mpm::Surroundings>&);                                  \
+    template void                  forget_clearances(const Exec&, Borders<Exec>&);                                      \
+    template void                  keep_clearances(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,       \
+                                                   const std::vector<Clearance>&);                                      \
     template std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>&, dem::Pairs<Exec>&,                      \
                                                    const dem::BodiesView&);                                             \
     template void                  list_borders(const Exec&, Borders<Exec>&, dem::Pairs<Exec>&, const dem::BodiesView&, \
-                                                const mpm::PageLattice&, const BorderReach&);                           \
+                                                const BorderReach&);                                                    \
     template void                  set_roles(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,             \
                                              const std::vector<std::int32_t>&, dem::Bodies<Exec>&);                     \
     template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);              \

@@ -1,7 +1,9 @@
 #include "solver/ranks/body_holding.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <utility>
 
 #include "decomp/messages.hpp"
 
@@ -10,7 +12,6 @@ namespace tread::solver
 namespace
 {
 
-/// Writes a body's part of a message: body, owner, number of holders, holders.
 void write_words(std::vector<std::int32_t>& words, const BodyHolding& body)
 {
     words.insert(words.end(), {body.body, body.owner, static_cast<std::int32_t>(body.holders.size())});
@@ -18,68 +19,71 @@ void write_words(std::vector<std::int32_t>& words, const BodyHolding& body)
 }
 
 /// Whether these are holders of a body that `owner` shares: ascending, and it is among them.
-bool can_hold(const std::vector<std::int32_t>& holders, std::int32_t owner, std::int32_t ranks)
+bool can_hold(std::span<const std::int32_t> holders, std::int32_t owner, std::int32_t ranks)
 {
     const bool ascends = std::adjacent_find(holders.begin(), holders.end(), std::greater_equal<>()) == holders.end();
     return holders.size() > 1 && ascends && holders.front() >= 0 && holders.back() < ranks &&
            std::binary_search(holders.begin(), holders.end(), owner);
 }
 
-} // namespace
-
-std::vector<std::int32_t> words_of(const std::vector<BodyHolding>& holdings)
+/// Merges lists that ascend.
+BodyHoldings merged(const std::vector<BodyHoldings>& lists)
 {
-    std::vector<std::int32_t> words;
-    for (const BodyHolding& body : holdings) { write_words(words, body); }
-    return words;
+    const auto               by_body = [](const BodyHolding& a, const BodyHolding& b) { return a.body < b.body; };
+    std::vector<BodyHolding> all;
+    for (const BodyHoldings& list : lists)
+    {
+        const auto before = static_cast<std::ptrdiff_t>(all.size());
+        for (const BodyHolding& body : list) { all.push_back(body); }
+        std::inplace_merge(all.begin(), all.begin() + before, all.end(), by_body);
+    }
+    BodyHoldings found;
+    for (const BodyHolding& body : all) { found.add(body); }
+    return found;
 }
 
-std::optional<std::vector<BodyHolding>> read_holdings(const std::vector<std::int32_t>& words, std::int32_t owner,
-                                                      std::int32_t ranks, std::size_t bodies)
+} // namespace
+
+void BodyHoldings::add(const BodyHolding& holding) { write_words(words_, holding); }
+
+std::optional<BodyHoldings> read_holdings(const std::vector<std::int32_t>& words, std::int32_t owner,
+                                          std::int32_t ranks, std::size_t bodies)
 {
-    std::vector<BodyHolding> holdings;
+    std::int32_t least = 0;
     for (auto word = words.begin(); word != words.end();)
     {
         const auto left = words.end() - word;
         if (left < 3 || word[2] < 0 || word[2] > left - 3) { return std::nullopt; }
-        const auto         first = word + 3, last = first + word[2];
-        const BodyHolding  read{word[0], word[1], {first, last}};
-        const std::int32_t least = holdings.empty() ? 0 : holdings.back().body + 1;
-        const bool         known = read.body >= least && static_cast<std::size_t>(read.body) < bodies;
-        if (!known || read.owner != owner || !can_hold(read.holders, owner, ranks)) { return std::nullopt; }
-        holdings.push_back(read);
-        word = last;
+        const std::span<const std::int32_t> holders(word + 3, static_cast<std::size_t>(word[2]));
+        const bool                          known = word[0] >= least && static_cast<std::size_t>(word[0]) < bodies;
+        if (!known || word[1] != owner || !can_hold(holders, owner, ranks)) { return std::nullopt; }
+        least = word[0] + 1;
+        word += 3 + word[2];
     }
-    return holdings;
+    return BodyHoldings(words);
 }
 
-ExchangedHoldings exchange_holdings(const Communicator& communicator, const std::vector<BodyHolding>& decided)
+ExchangedHoldings exchange_holdings(const Communicator& communicator, const BodyHoldings& decided)
 {
-    const auto        ranks = static_cast<std::size_t>(communicator.size());
-    RankLists         words(ranks);
-    ExchangedHoldings found{{}, RankLists(ranks)};
+    const auto                ranks = static_cast<std::size_t>(communicator.size());
+    RankLists                 words(ranks);
+    std::vector<BodyHoldings> held(1); // what this rank keeps, then what others send
     for (const BodyHolding& body : decided)
     {
         for (const std::int32_t holder : body.holders)
         {
-            if (holder == communicator.rank()) { found.held.push_back(body); }
+            if (holder == communicator.rank()) { held.front().add(body); }
             else { write_words(words[static_cast<std::size_t>(holder)], body); }
         }
     }
-    const RankLists received = decomp::exchange_values(communicator, words);
-    for (std::size_t r = 0; r < received.size(); ++r)
+    RankLists arriving;
+    for (std::vector<std::int32_t>& received : decomp::exchange_values(communicator, words))
     {
-        for (auto word = received[r].begin(); word != received[r].end();)
-        {
-            const auto holders = word + 3, end = holders + word[2];
-            found.held.push_back({word[0], word[1], {holders, end}});
-            found.arriving[r].push_back(word[0]);
-            word = end;
-        }
+        held.emplace_back(std::move(received));
+        arriving.emplace_back();
+        for (const BodyHolding& body : held.back()) { arriving.back().push_back(body.body); }
     }
-    std::sort(found.held.begin(), found.held.end(),
-              [](const BodyHolding& a, const BodyHolding& b) { return a.body < b.body; });
-    return found;
+    return {merged(held), std::move(arriving)};
 }
 
 std::vector<decomp::Route> routes_of(const RankLists& lists)

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -14,9 +16,53 @@ namespace tread::solver
 /// Owner and holders of a body that is not held by this rank alone.
 struct BodyHolding
 {
-    std::int32_t              body;
-    std::int32_t              owner;
-    std::vector<std::int32_t> holders; ///< ascending; the owner among them
+    std::int32_t                  body;
+    std::int32_t                  owner;
+    std::span<const std::int32_t> holders; ///< ascending; the owner among them
+};
+
+/// A list of holdings, as words of a message or a file: body, owner, number of holders and holders of each.
+class BodyHoldings
+{
+public:
+    class Iterator
+    {
+    public:
+        explicit Iterator(const std::int32_t* word)
+            : word_(word)
+        {
+        }
+
+        BodyHolding operator*() const { return {word_[0], word_[1], {word_ + 3, static_cast<std::size_t>(word_[2])}}; }
+        Iterator&   operator++()
+        {
+            word_ += 3 + word_[2];
+            return *this;
+        }
+        bool operator!=(const Iterator& other) const { return word_ != other.word_; }
+
+    private:
+        const std::int32_t* word_;
+    };
+
+    BodyHoldings() = default;
+
+    /// `words`: of whole holdings.
+    explicit BodyHoldings(std::vector<std::int32_t> words)
+        : words_(std::move(words))
+    {
+    }
+
+    void add(const BodyHolding& holding);
+
+    bool     empty() const { return words_.empty(); }
+    Iterator begin() const { return Iterator(words_.data()); }
+    Iterator end() const { return Iterator(words_.data() + words_.size()); }
+
+    const std::vector<std::int32_t>& words() const { return words_; }
+
+private:
+    std::vector<std::int32_t> words_;
 };
 
 /// One list of bodies, or of rows, per rank.
@@ -25,20 +71,17 @@ using RankLists = std::vector<std::vector<std::int32_t>>;
 /// Result of the exchange of all ranks' decisions.
 struct ExchangedHoldings
 {
-    std::vector<BodyHolding> held;     ///< bodies that this rank shares from now on, ascending
-    RankLists                arriving; ///< by rank: bodies whose state it sends
+    BodyHoldings held;     ///< bodies that this rank shares from now on, ascending
+    RankLists    arriving; ///< by rank: bodies whose state it sends
 };
 
-/// Writes holdings as words of a message or a file: body, owner, number of holders and holders of each.
-std::vector<std::int32_t> words_of(const std::vector<BodyHolding>& holdings);
+/// Reads words that may come from anywhere; empty where they are none of BodyHoldings, ascending, for `bodies` bodies
+/// that `owner`, one of `ranks` ranks, shares with others.
+std::optional<BodyHoldings> read_holdings(const std::vector<std::int32_t>& words, std::int32_t owner,
+                                          std::int32_t ranks, std::size_t bodies);
 
-/// Reads what words_of has written; empty where these words are none of its, for `bodies` bodies that `owner`, one of
-/// `ranks` ranks, shares with others.
-std::optional<std::vector<BodyHolding>> read_holdings(const std::vector<std::int32_t>& words, std::int32_t owner,
-                                                      std::int32_t ranks, std::size_t bodies);
-
-/// Sends the decisions of this rank to the holders, and returns those that concern this rank. Collective.
-ExchangedHoldings exchange_holdings(const Communicator& communicator, const std::vector<BodyHolding>& decided);
+/// Sends the decisions of this rank, ascending, to the holders, and returns those that concern this rank. Collective.
+ExchangedHoldings exchange_holdings(const Communicator& communicator, const BodyHoldings& decided);
 
 /// Routes of lists, in ascending order of ranks; none for an empty list.
 std::vector<decomp::Route> routes_of(const RankLists& lists);

@@ -1,7 +1,7 @@
 #include "solver/ranks/body_owners.hpp"
 
 #include <algorithm>
-#include <map>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -51,9 +51,10 @@ BodyOwners::BodyOwners(const Communicator& communicator, const world::World& wor
 {
 }
 
-void BodyOwners::follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks, std::int64_t version)
+void BodyOwners::follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks,
+                        const std::vector<std::uint8_t>& sand, std::int64_t version)
 {
-    ownership_.emplace(lattice_, keys, ranks);
+    ownership_.emplace(lattice_, keys, ranks, sand);
     pages_version_ = version;
 }
 
@@ -76,7 +77,7 @@ void BodyOwners::assign(const std::vector<Vec3<double>>& position)
     }
 }
 
-void BodyOwners::restore(const std::vector<std::int32_t>& owned, const std::vector<BodyHolding>& held)
+void BodyOwners::restore(const std::vector<std::int32_t>& owned, const BodyHoldings& held)
 {
     std::fill(role_.begin(), role_.end(), dem::role_none);
     ghosts_.clear();
@@ -99,60 +100,69 @@ double BodyOwners::slack() const { return owner_slack * lattice_.spacing; }
 
 std::int32_t BodyOwners::next_owner(std::size_t body, const Vec3<double>& position)
 {
-    const std::int32_t              own     = communicator_.rank();
-    const double                    near_by = std::min(slack(), bounding_radius_[body]);
-    const std::vector<std::int32_t> near    = ownership_->owners_near(position, near_by);
-    return std::find(near.begin(), near.end(), own) != near.end() ? own : ownership_->owner_of(position);
+    const std::int32_t own     = communicator_.rank();
+    const double       near_by = std::min(slack(), bounding_radius_[body]);
+    return ownership_->is_near(own, position, near_by) ? own : ownership_->owner_of(position);
 }
 
 BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
 {
-    const std::int32_t here = communicator_.rank();
-    BorderDecisions    found;
+    const std::int32_t              here = communicator_.rank();
+    const std::vector<std::int32_t> all  = every_rank(communicator_);
+    std::vector<std::int32_t>       holders;
+    BorderDecisions                 found;
     for (std::size_t i = 0; i < bodies.body.size(); ++i)
     {
-        const std::int32_t         body       = bodies.body[i];
-        const auto                 b          = static_cast<std::size_t>(body);
-        const contact::BorderBody& ball       = bodies.ball[i];
-        const bool                 everywhere = is_jointed_[b] != 0;
-        const mpm::Surroundings    around     = mpm::surroundings(lattice_, ball.position, ball.radius);
-        if (!everywhere && ownership_->is_within(around, here))
+        const std::int32_t         body = bodies.body[i];
+        const auto                 b    = static_cast<std::size_t>(body);
+        const contact::BorderBody& ball = bodies.ball[i];
+        if (is_jointed_[b] != 0)
         {
-            found.inside.push_back(body);
-            found.around.push_back(around);
+            found.shared.add({body, next_owner(b, ball.position), all});
             continue;
         }
-        std::vector<std::int32_t> holders =
-            everywhere ? every_rank(communicator_) : ownership_->owners_near(ball.position, ball.radius);
+        const mpm::Reach clear = ownership_->clear_of_others(here, ball.position, ball.reach);
+        if (clear.bodies > 0)
+        {
+            found.inside.push_back(body);
+            found.clear.push_back({ball.position, clear});
+            continue;
+        }
+        ownership_->find_owners_near(ball.position, ball.reach, holders);
         if (holders.size() == 1 && holders.front() == here) { continue; }
-        found.shared.push_back({body, next_owner(b, ball.position), std::move(holders)});
+        found.shared.add({body, next_owner(b, ball.position), holders});
     }
     return found;
 }
 
-RoleChanges BodyOwners::take_roles(const std::vector<BodyHolding>& decided, const std::vector<BodyHolding>& held)
+RoleChanges BodyOwners::take_roles(const BodyHoldings& decided, const BodyHoldings& held)
 {
-    std::map<std::int32_t, std::int32_t> roles; // of each body that may have another one now
-    for (const std::int32_t ghost : ghosts_) { roles[ghost] = dem::role_none; }
-    for (const BodyHolding& body : decided) { roles[body.body] = dem::role_none; }
+    std::vector<std::int32_t> mine, before; // decided about; these, and ghosts
+    for (const BodyHolding& body : decided) { mine.push_back(body.body); }
+    std::set_union(ghosts_.begin(), ghosts_.end(), mine.begin(), mine.end(), std::back_inserter(before));
     ghosts_.clear();
-    for (const BodyHolding& body : held)
-    {
-        const bool own   = body.owner == communicator_.rank();
-        roles[body.body] = own ? dem::role_owner : dem::role_ghost;
-        if (!own) { ghosts_.push_back(body.body); }
-    }
+
     RoleChanges changes;
-    for (const auto& [body, role] : roles)
+    const auto  take = [&](std::int32_t body, std::int32_t role)
     {
-        std::int32_t& before = role_[static_cast<std::size_t>(body)];
-        if (before == role) { continue; }
-        owned_.add(body, before, -1);
+        std::int32_t& last = role_[static_cast<std::size_t>(body)];
+        if (last == role) { return; }
+        owned_.add(body, last, -1);
         owned_.add(body, role, 1);
-        before = role;
+        last = role;
         changes.body.push_back(body);
         changes.role.push_back(role);
+    };
+    auto next = before.begin();
+    for (const BodyHolding& body : held)
+    {
+        for (; next != before.end() && *next < body.body; ++next) { take(*next, dem::role_none); }
+        if (next != before.end() && *next == body.body) { ++next; }
+        const bool own = body.owner == communicator_.rank();
+        take(body.body, own ? dem::role_owner : dem::role_ghost);
+        if (!own) { ghosts_.push_back(body.body); }
     }
+    for (; next != before.end(); ++next) { take(*next, dem::role_none); }
     return changes;
 }
 
@@ -167,7 +177,7 @@ std::optional<double> BodyOwners::sum_if_complete(double value) const
 
 bool BodyOwners::are_complete() const { return sum_if_complete(0).has_value(); }
 
-bool BodyOwners::owner_has_changed(const std::vector<BodyHolding>& decided) const
+bool BodyOwners::owner_has_changed(const BodyHoldings& decided) const
 {
     double leaving = 0;
     for (const BodyHolding& body : decided) { leaving += body.owner == communicator_.rank() ? 0 : 1; }

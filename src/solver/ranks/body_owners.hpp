@@ -23,9 +23,9 @@ struct BodiesAtBorders
 /// Decisions of this rank about bodies at borders.
 struct BorderDecisions
 {
-    std::vector<BodyHolding>       shared; ///< of bodies that this rank owned and does not hold alone from now on
-    std::vector<std::int32_t>      inside; ///< bodies with no page of another rank around
-    std::vector<mpm::Surroundings> around; ///< of each of these
+    BodyHoldings                    shared; ///< of bodies that this rank owned and does not hold alone from now on
+    std::vector<std::int32_t>       inside; ///< bodies that reach no page of another rank
+    std::vector<contact::Clearance> clear;  ///< of each of these
 };
 
 /// Bodies whose role on this rank has changed, ascending.
@@ -37,7 +37,8 @@ struct RoleChanges
 
 /// Roles of this rank for the bodies of a scene, and the decision who owns and who holds each body, on the host. A body
 /// is owned by the rank of the page that holds its centre when pairs are found. Ranks whose pages it may reach before
-/// the next search, enlarged by the largest search radius of any other body, hold it as a ghost.
+/// the next search, enlarged by the largest search radius of any other body, hold it as a ghost, and so do those whose
+/// sand it may touch.
 class BodyOwners
 {
 public:
@@ -48,7 +49,7 @@ public:
     template<class Exec>
     void follow_pages(const decomp::PageMap<Exec>& pages)
     {
-        follow(pages.keys(), pages.ranks(), pages.changes());
+        follow(pages.keys(), pages.ranks(), pages.sand(), pages.changes());
     }
 
     /// PageMap::changes() at the last follow_pages().
@@ -58,25 +59,23 @@ public:
     void assign(const std::vector<Vec3<double>>& position);
 
     /// Takes the bodies that this rank owned when a state was saved, and the holders of those that it shared.
-    void restore(const std::vector<std::int32_t>& owned, const std::vector<BodyHolding>& held);
+    void restore(const std::vector<std::int32_t>& owned, const BodyHoldings& held);
 
     /// Decides about bodies that this rank has owned until now. All others stay with it alone.
     BorderDecisions decide(const BodiesAtBorders& bodies);
 
     /// Takes the roles of exchanged decisions.
-    RoleChanges take_roles(const std::vector<BodyHolding>& decided, const std::vector<BodyHolding>& held);
+    RoleChanges take_roles(const BodyHoldings& decided, const BodyHoldings& held);
 
     /// m, how far a body may be from a page that it is said to reach, so that it does not change hands at every search.
     double slack() const;
-
-    const decomp::PageLattice& lattice() const { return lattice_; }
 
     /// Whether the ranks together own every body once. Collective.
     bool are_complete() const;
 
     /// Whether any body of any rank has got a new owner by these decisions. Collective; NumericalError if the ranks
     /// together do not own every body once.
-    bool owner_has_changed(const std::vector<BodyHolding>& decided) const;
+    bool owner_has_changed(const BodyHoldings& decided) const;
 
     /// dem::BodyRole of every body.
     const std::vector<std::int32_t>& roles() const { return role_; }
@@ -89,7 +88,8 @@ public:
     std::uint64_t page_of(const Vec3<double>& position) const { return ownership_->page_of(position); }
 
 private:
-    void         follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks, std::int64_t version);
+    void         follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks,
+                        const std::vector<std::uint8_t>& sand, std::int64_t version);
     std::int32_t next_owner(std::size_t body, const Vec3<double>& position);
 
     /// Sum over ranks of a value; empty if the ranks together do not own every body once. Collective.
@@ -111,7 +111,7 @@ private:
     std::vector<double>                  bounding_radius_; ///< m, by body
     std::vector<std::int32_t>            role_;            ///< by body
     std::vector<std::uint8_t>            is_jointed_;      ///< by body: 1 = every rank holds it, and solves its joints
-    std::vector<std::int32_t>            ghosts_;          ///< bodies with that role
+    std::vector<std::int32_t>            ghosts_;          ///< bodies with that role, ascending
     Owned                                owned_;
 };
 

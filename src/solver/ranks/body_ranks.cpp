@@ -1,7 +1,6 @@
 #include "solver/ranks/body_ranks.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -49,9 +48,9 @@ template<class Exec>
 void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
     if (pages_have_changed()) { follow_pages(); }
-    const std::vector<BodyHolding> decided   = decide(bodies, pairs);
-    ExchangedHoldings              exchanged = exchange_holdings(communicator(), decided);
-    const dem::BodiesView          view      = bodies.view();
+    const BodyHoldings    decided   = decide(bodies, pairs);
+    ExchangedHoldings     exchanged = exchange_holdings(communicator(), decided);
+    const dem::BodiesView view      = bodies.view();
     send_states(states_to_send(decided), exchanged.arriving,
                 decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
                                 view.torque, view.stiffness, view.locked, pairs.displacement.allowed.data()));
@@ -66,7 +65,7 @@ template<class Exec>
 void BodyRanks<Exec>::follow_pages()
 {
     owners_.follow_pages(decomposition_.owners);
-    contact::forget_inside(exec_, borders_);
+    contact::forget_clearances(exec_, borders_);
 }
 
 template<class Exec>
@@ -74,11 +73,13 @@ void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
 {
     const std::int32_t        here  = communicator().rank();
     const std::size_t         count = owners_.roles().size();
-    std::vector<BodyHolding>  own;
     std::vector<std::int32_t> owned = owners_.owned();
-    std::copy_if(held_.begin(), held_.end(), std::back_inserter(own),
-                 [&](const BodyHolding& body) { return body.owner == here && body.holders.size() > 1; });
-    std::vector<std::int32_t> words   = words_of(own);
+    BodyHoldings              own;
+    for (const BodyHolding& body : held_)
+    {
+        if (body.owner == here && body.holders.size() > 1) { own.add(body); }
+    }
+    std::vector<std::int32_t> words   = own.words();
     bool                      follows = !pages_have_changed();
 
     const auto held = [&](const std::vector<std::int32_t>& values) -> accept::Verdict
@@ -86,7 +87,12 @@ void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
         const auto read     = read_holdings(values, here, communicator().size(), count);
         const auto is_owned = [&](const BodyHolding& body)
         { return std::binary_search(owned.begin(), owned.end(), body.body); };
-        if (read && std::all_of(read->begin(), read->end(), is_owned)) { return {}; }
+        bool all = read.has_value();
+        if (all)
+        {
+            for (const BodyHolding& body : *read) { all = all && is_owned(body); }
+        }
+        if (all) { return {}; }
         return accept::Refusal{-1, "other words", "body, owner, number of holders and holders of shared bodies"};
     };
     file.own("ranks/body", owned, accept::all(accept::index(count), accept::ascending(), accept::distinct()));
@@ -106,26 +112,25 @@ void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
 }
 
 template<class Exec>
-std::vector<BodyHolding> BodyRanks<Exec>::decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
+BodyHoldings BodyRanks<Exec>::decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
 {
     if (is_large_.empty()) { is_large_ = pairs.sizes.is_large.to_host(); }
     std::array<double, 2> met = contact::largest_reaches(exec_, borders_, pairs, bodies.view());
     decomp::combine(communicator(), met.data(), 0, 2);
     const double slack = owners_.slack();
-    contact::list_borders(exec_, borders_, pairs, bodies.view(), owners_.lattice(),
-                          {met[0] + slack, met[1] + slack, sand_reach_});
+    contact::list_borders(exec_, borders_, pairs, bodies.view(), {met[0] + slack, met[1] + slack, sand_reach_});
     border_body_.request(borders_.body);
     border_ball_.request(borders_.ball);
     synchronize(exec_);
-    const BorderDecisions decided =
+    BorderDecisions decided =
         owners_.decide({{border_body_.data(), border_body_.data() + borders_.body.size()}, border_ball_.data()});
-    contact::keep_inside(exec_, borders_, decided.inside, decided.around);
-    return decided.shared;
+    contact::keep_clearances(exec_, borders_, decided.inside, decided.clear);
+    return std::move(decided.shared);
 }
 
 /// Bodies whose state this rank sends, by destination.
 template<class Exec>
-RankLists BodyRanks<Exec>::states_to_send(const std::vector<BodyHolding>& decided) const
+RankLists BodyRanks<Exec>::states_to_send(const BodyHoldings& decided) const
 {
     RankLists lists(static_cast<std::size_t>(communicator().size()));
     for (const BodyHolding& body : decided)

@@ -57,17 +57,17 @@ public:
     const Communicator& communicator() const { return decomposition_.communicator; }
 
 private:
-    void                     follow_pages();
-    std::vector<BodyHolding> decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
-    RankLists                states_to_send(const std::vector<BodyHolding>& decided) const;
-    void send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns);
+    void         follow_pages();
+    BodyHoldings decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
+    RankLists    states_to_send(const BodyHoldings& decided) const;
+    void         send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns);
 
     decomp::Decomposition<Exec>&            decomposition_;
     Exec                                    exec_;
     double                                  sand_reach_; ///< m
     BodyOwners                              owners_;
     SharedBodies<Exec>                      shared_;
-    std::vector<BodyHolding>                held_; ///< bodies that this rank shares or has just got, ascending
+    BodyHoldings                            held_; ///< bodies that this rank shares or has just got, ascending
     contact::Borders<Exec>                  borders_;
     FetchedArray<Exec, std::int32_t>        border_body_;
     FetchedArray<Exec, contact::BorderBody> border_ball_;

@@ -28,6 +28,18 @@ double spacing_of(const world::World& world)
     return 2 * *middle;
 }
 
+using Loads = std::unordered_map<std::uint64_t, double>;
+
+/// Ascending.
+std::vector<std::uint64_t> keys_of(const Loads& loads)
+{
+    std::vector<std::uint64_t> keys;
+    keys.reserve(loads.size());
+    for (const auto& [page, load] : loads) { keys.push_back(page); }
+    std::sort(keys.begin(), keys.end());
+    return keys;
+}
+
 std::string line_of(const Communicator& communicator, const decomp::PageGraph& graph, const char* name,
                     const decomp::PartitionOptions& options)
 {
@@ -53,33 +65,31 @@ decomp::PageLattice page_lattice_of(const world::World& world)
     return {spacing_of(world), world.geometry.stencil_shift};
 }
 
-decomp::PageGraph page_graph_of(const world::World& world)
+WorldPages pages_of(const world::World& world)
 {
     const mpm::Lattice lattice = mpm::make_lattice(spacing_of(world), world.geometry.stencil_shift);
-    std::unordered_map<std::uint64_t, double> loads;
+    Loads              loads;
     for (const world::PointRow& row : world.sand.rows)
     {
         for_each_page_run(lattice, row,
                           [&](std::uint64_t page, std::uint32_t from, std::uint32_t to)
                           { loads[page] += static_cast<double>(to - from); });
     }
+    std::vector<std::uint64_t> with_sand = keys_of(loads);
     for (const Vec3<double>& at : world.bodies.position)
     {
         loads[mpm::page_key(mpm::page_of(mpm::cell_of(at, lattice)))] += body_load;
     }
-    std::vector<std::uint64_t> key;
+    std::vector<std::uint64_t> key = keys_of(loads);
     std::vector<double>        load;
-    key.reserve(loads.size());
-    load.reserve(loads.size());
-    for (const auto& entry : loads) { key.push_back(entry.first); }
-    std::sort(key.begin(), key.end());
+    load.reserve(key.size());
     for (const std::uint64_t page : key) { load.push_back(loads.at(page)); }
-    return decomp::page_graph(std::move(key), std::move(load));
+    return {decomp::page_graph(std::move(key), std::move(load)), std::move(with_sand)};
 }
 
 std::string partition_lines(const Communicator& communicator, const world::World& world, int ranks)
 {
-    const decomp::PageGraph  graph = page_graph_of(world);
+    const decomp::PageGraph  graph = pages_of(world).graph;
     decomp::PartitionOptions options;
     options.ranks    = ranks;
     std::string text = fmt::format("partition of {} pages into {} ranks:\n", graph.pages(), ranks);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "base/communicator.hpp"
 #include "decomp/decomposition.hpp"
@@ -21,20 +23,27 @@ std::string describe_partition(const decomp::PageGraph& graph, const decomp::Par
 /// Lattice that maps positions to the pages of page_graph_of.
 decomp::PageLattice page_lattice_of(const world::World& world);
 
-/// Builds the graph of pages that hold points or centres of bodies, with their loads. Without points pages are four
-/// bodies wide.
-decomp::PageGraph page_graph_of(const world::World& world);
+/// Pages of a world at its start.
+struct WorldPages
+{
+    decomp::PageGraph          graph;     ///< of those that hold points or centres of bodies, with their loads
+    std::vector<std::uint64_t> with_sand; ///< those that hold points, ascending
+};
+
+/// Finds the pages of a world. Without points pages are four bodies wide.
+WorldPages pages_of(const world::World& world);
 
 /// Collective: assigns every page of a world to a rank. Returns a description for the log.
 template<class Exec>
 std::string share_out(decomp::Decomposition<Exec>& decomposition, const world::World& world)
 {
-    const decomp::PageGraph  graph = page_graph_of(world);
+    const WorldPages         pages = pages_of(world);
     decomp::PartitionOptions options;
     options.ranks                 = decomposition.ranks();
-    const decomp::Partition found = decomp::make_partition(decomposition.communicator, graph, options);
-    decomposition.owners.assign(graph.key, found.rank);
-    return describe_partition(graph, found, options.ranks);
+    const decomp::Partition found = decomp::make_partition(decomposition.communicator, pages.graph, options);
+    decomposition.owners.assign(pages.graph.key, found.rank);
+    decomposition.owners.enter_sand(pages.with_sand);
+    return describe_partition(pages.graph, found, options.ranks);
 }
 
 /// Collective: describes the partition of a world over `ranks`, one line for each partitioner.

@@ -49,7 +49,7 @@ dem::RecordRows<Exec> rows_of(const Exec& exec, const Records& records)
 }
 
 /// Destination rank of every body that leaves.
-std::map<std::int64_t, std::size_t> destinations(const std::vector<BodyHolding>& decided, std::int32_t here)
+std::map<std::int64_t, std::size_t> destinations(const BodyHoldings& decided, std::int32_t here)
 {
     std::map<std::int64_t, std::size_t> moved;
     for (const BodyHolding& body : decided)
@@ -78,7 +78,7 @@ RecordMigration<Exec>::RecordMigration(const Exec& exec, std::size_t bodies)
 
 template<class Exec>
 void RecordMigration<Exec>::run(const Communicator& communicator, dem::Pairs<Exec>& pairs,
-                                const std::vector<std::int32_t>& is_large, const std::vector<BodyHolding>& decided)
+                                const std::vector<std::int32_t>& is_large, const BodyHoldings& decided)
 {
     const auto moved      = destinations(decided, communicator.rank());
     const bool has_places = communicator.maximum(pairs.patches.last_place.size() == 0 ? 0 : 1) > 0;

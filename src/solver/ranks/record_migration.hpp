@@ -26,7 +26,7 @@ public:
     /// Sends records of the previous list (Pairs::last) to the new owners of bodies that leave this rank, and merges
     /// those that arrive. Collective.
     void run(const Communicator& communicator, dem::Pairs<Exec>& pairs, const std::vector<std::int32_t>& is_large,
-             const std::vector<BodyHolding>& decided);
+             const BodyHoldings& decided);
 
 private:
     std::vector<world::ContactRecord> take(dem::Pairs<Exec>& pairs, const std::map<std::int64_t, std::size_t>& moved);

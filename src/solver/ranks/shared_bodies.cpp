@@ -15,7 +15,7 @@ struct SharingPlan
     RankLists                 rows; ///< by rank: rows to send, in ascending order of bodies
 };
 
-SharingPlan list_bodies(const std::vector<BodyHolding>& held, std::size_t ranks)
+SharingPlan list_bodies(const BodyHoldings& held, std::size_t ranks)
 {
     SharingPlan plan;
     plan.rows.resize(ranks);
@@ -32,7 +32,7 @@ SharingPlan list_bodies(const std::vector<BodyHolding>& held, std::size_t ranks)
 
 /// Numbers the rows of shares: this rank's own come first, then those that arrive, by rank. plan.rows has none for this
 /// rank.
-void number_shares(SharingPlan& plan, const std::vector<BodyHolding>& held, std::size_t rank)
+void number_shares(SharingPlan& plan, const BodyHoldings& held, std::size_t rank)
 {
     std::vector<std::int32_t> next(plan.rows.size(), static_cast<std::int32_t>(plan.body.size()));
     for (std::size_t r = 1; r < next.size(); ++r)
@@ -68,7 +68,7 @@ SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport, std::size_t
 }
 
 template<class Exec>
-void SharedBodies<Exec>::plan(const std::vector<BodyHolding>& held, const Communicator& communicator)
+void SharedBodies<Exec>::plan(const BodyHoldings& held, const Communicator& communicator)
 {
     const auto  rank  = static_cast<std::size_t>(communicator.rank());
     SharingPlan found = list_bodies(held, static_cast<std::size_t>(communicator.size()));

@@ -20,7 +20,7 @@ public:
     SharedBodies(decomp::Transport<Exec>& transport, std::size_t bodies);
 
     /// Lists the bodies shared on each route, in the same order on both sides. `held`: ascending.
-    void plan(const std::vector<BodyHolding>& held, const Communicator& communicator);
+    void plan(const BodyHoldings& held, const Communicator& communicator);
 
     std::int64_t    count() const { return body_.size(); }
     dem::SharedView view();

@@ -1,8 +1,11 @@
 #include "decomp/page_ownership.hpp"
 
+#include <array>
+
 #include <gtest/gtest.h>
 
 #include "decomp/messages.hpp"
+#include "decomp/page_map.hpp"
 #include "kernels/mpm/pages/page_key.hpp"
 #include "mpi_session.hpp"
 
@@ -21,7 +24,17 @@ Vec3<double> middle(std::int32_t x, std::int32_t y, std::int32_t z)
     return width * (Vec3<double>(x, y, z) + Vec3<double>::Constant(0.5)) + Vec3<double>::Constant(0.05);
 }
 
-/// Pages (0, 0, 0) to (7, 0, 0), owned by ranks 0, 0, 1, 1, 2, 2, 3, 3.
+/// A reach of bodies alone, m.
+mpm::Reach bodies_within(double radius) { return {radius, 0}; }
+
+std::vector<std::int32_t> owners_near(PageOwnership& ownership, const Vec3<double>& centre, const mpm::Reach& reach)
+{
+    std::vector<std::int32_t> ranks{7}; // what is there before does not matter
+    ownership.find_owners_near(centre, reach, ranks);
+    return ranks;
+}
+
+/// Pages (0, 0, 0) to (7, 0, 0), owned by ranks 0, 0, 1, 1, 2, 2, 3, 3; sand has been in those of rank 2.
 PageOwnership row_of_pages()
 {
     std::vector<std::uint64_t> keys;
@@ -31,7 +44,7 @@ PageOwnership row_of_pages()
         keys.push_back(mpm::page_key({x, 0, 0}));
         ranks.push_back(x / 2);
     }
-    return {lattice, keys, ranks};
+    return {lattice, keys, ranks, {0, 0, 0, 0, 1, 1, 0, 0}};
 }
 
 TEST(PageOwnership, BelongsToTheOwnersOfPages)
@@ -67,24 +80,33 @@ TEST(PageOwnership, FindsAllRanksThatABallReaches)
 {
     PageOwnership ownership = row_of_pages();
     using Ranks             = std::vector<std::int32_t>;
-    EXPECT_EQ(ownership.owners_near(middle(0, 0, 0), 0.1), (Ranks{0}));
-    EXPECT_EQ(ownership.owners_near(middle(1, 0, 0), 0.19), (Ranks{0}));
-    EXPECT_EQ(ownership.owners_near(middle(1, 0, 0), 0.21), (Ranks{0, 1}));
-    EXPECT_EQ(ownership.owners_near(middle(3, 0, 0), 0.61), (Ranks{0, 1, 2}));
-    EXPECT_EQ(ownership.owners_near(middle(3, 0, 0), 1e6), (Ranks{0, 1, 2, 3}));
+    EXPECT_EQ(owners_near(ownership, middle(0, 0, 0), bodies_within(0.1)), (Ranks{0}));
+    EXPECT_EQ(owners_near(ownership, middle(1, 0, 0), bodies_within(0.19)), (Ranks{0}));
+    EXPECT_EQ(owners_near(ownership, middle(1, 0, 0), bodies_within(0.21)), (Ranks{0, 1}));
+    EXPECT_EQ(owners_near(ownership, middle(3, 0, 0), bodies_within(0.61)), (Ranks{0, 1, 2}));
+    EXPECT_EQ(owners_near(ownership, middle(3, 0, 0), bodies_within(1e6)), (Ranks{0, 1, 2, 3}));
 }
 
-TEST(PageOwnership, KnowsWhereAllAroundAPageIsOneRanks)
+TEST(PageOwnership, KnowsHowFarAwayOthersAre)
 {
     PageOwnership ownership = row_of_pages();
-    EXPECT_TRUE(ownership.is_within(mpm::surroundings(lattice, middle(0, 0, 0), 0.1), 0));
-    EXPECT_FALSE(ownership.is_within(mpm::surroundings(lattice, middle(0, 0, 0), 0.1), 1));
-    EXPECT_FALSE(ownership.is_within(mpm::surroundings(lattice, middle(1, 0, 0), 0.19), 0))
-        << "another place in the page";
-    EXPECT_FALSE(ownership.is_within(mpm::surroundings(lattice, middle(0, 0, 0), 1e6), 0))
-        << "too many pages to look at";
-    EXPECT_EQ(mpm::surroundings(lattice, middle(1, 0, 0), 0.19), mpm::surroundings(lattice, middle(1, 0, 0), 0.3));
-    EXPECT_NE(mpm::surroundings(lattice, middle(1, 0, 0), 0.1), Surroundings{});
+    const auto    clear     = [&](std::int32_t rank, const Vec3<double>& place, const mpm::Reach& reach)
+    {
+        const mpm::Reach found = ownership.clear_of_others(rank, place, reach);
+        return std::array{found.bodies, found.sand};
+    };
+    const auto expect_near = [](const std::array<double, 2>& found, double bodies, double sand)
+    {
+        EXPECT_NEAR(found[0], bodies, 1e-12);
+        EXPECT_NEAR(found[1], sand, 1e-12);
+    };
+    expect_near(clear(0, middle(1, 0, 0), {0.1, 0.9}), 0.2, 1.0); // the page of rank 1, and that of rank 2 with sand
+    expect_near(clear(0, middle(0, 0, 0), {0.1, 0.1}), 0.4, 0.4); // it looks one page far
+    expect_near(clear(0, middle(0, 0, 0), {0.5, 0.1}), 0.6, 0.4); // two
+    expect_near(clear(0, middle(1, 0, 0), {0.21, 0.1}), 0, 0);    // the page of rank 1 is within reach
+    expect_near(clear(0, middle(1, 0, 0), {0.1, 1.01}), 0, 0);    // the sand of rank 2 is
+    expect_near(clear(1, middle(0, 0, 0), {0.1, 0.1}), 0, 0);     // not its page
+    expect_near(clear(0, middle(0, 0, 0), {0.1, 1e6}), 0, 0);     // too many pages to look at
 }
 
 TEST(PageOwnership, ABallThatPassesACornerDoesNotReachThePageBehindIt)
@@ -93,10 +115,49 @@ TEST(PageOwnership, ABallThatPassesACornerDoesNotReachThePageBehindIt)
     PageOwnership ownership(
         lattice,
         {mpm::page_key({0, 0, 0}), mpm::page_key({1, 0, 0}), mpm::page_key({0, 1, 0}), mpm::page_key({1, 1, 0})},
-        {0, 1, 2, 3});
+        {0, 1, 2, 3}, {1, 1, 1, 1});
     const Vec3<double> at = middle(0, 0, 0) + Vec3<double>(0.1, 0.1, 0); // 0.1 from two borders, 0.141 from the corner
-    EXPECT_EQ(ownership.owners_near(at, 0.12), (std::vector<std::int32_t>{0, 1, 2}));
-    EXPECT_EQ(ownership.owners_near(at, 0.15), (std::vector<std::int32_t>{0, 1, 2, 3}));
+    EXPECT_EQ(owners_near(ownership, at, bodies_within(0.12)), (std::vector<std::int32_t>{0, 1, 2}));
+    EXPECT_EQ(owners_near(ownership, at, bodies_within(0.15)), (std::vector<std::int32_t>{0, 1, 2, 3}));
+}
+
+/// A page that no sand has been in has none that a body could touch.
+TEST(PageOwnership, SandIsWhereItHasBeen)
+{
+    PageOwnership ownership = row_of_pages();
+    using Ranks             = std::vector<std::int32_t>;
+    EXPECT_EQ(owners_near(ownership, middle(3, 0, 0), {0.1, 0.19}), (Ranks{1})) << "a page of rank 2 is 0.2 m away";
+    EXPECT_EQ(owners_near(ownership, middle(3, 0, 0), {0.1, 0.21}), (Ranks{1, 2}));
+    EXPECT_EQ(owners_near(ownership, middle(3, 0, 0), {0.1, 1.5}), (Ranks{1, 2})) << "ranks 0 and 3 have no sand";
+    EXPECT_EQ(owners_near(ownership, middle(0, 0, 0), {0.61, 1.41}), (Ranks{0, 1, 2}));
+}
+
+TEST(PageOwnership, ARankIsNearToItsPages)
+{
+    PageOwnership ownership = row_of_pages();
+    EXPECT_TRUE(ownership.is_near(0, middle(1, 0, 0), 0));
+    EXPECT_FALSE(ownership.is_near(1, middle(1, 0, 0), 0.19));
+    EXPECT_TRUE(ownership.is_near(1, middle(1, 0, 0), 0.21));
+    EXPECT_FALSE(ownership.is_near(2, middle(1, 0, 0), 0.21));
+}
+
+TEST(PageMap, KnowsWhereSandHasBeen)
+{
+    Counters     counters;
+    PageMap<Cpu> map(Cpu{&counters});
+    map.assign({2, 4, 6}, {0, 1, 2});
+    EXPECT_EQ(map.view().of(4), -1) << "kernels know pages with sand";
+    map.enter_sand({4});
+    EXPECT_EQ(map.view().of(4), 1);
+    map.enter_sand({3, 6, 9}, {0, 0, 1});
+    EXPECT_EQ(map.keys(), (std::vector<std::uint64_t>{2, 3, 4, 6, 9}));
+    EXPECT_EQ(map.ranks(), (PageRanks{0, 0, 1, 2, 1})) << "page 6 had an owner";
+    EXPECT_EQ(map.sand(), (std::vector<std::uint8_t>{0, 1, 1, 1, 1}));
+    EXPECT_EQ(map.view().of(2), -1);
+    EXPECT_EQ(map.owner(2), 0);
+    map.assign({1, 4, 9}, {2, 2, 2});
+    EXPECT_EQ(map.sand(), (std::vector<std::uint8_t>{0, 1, 1})) << "new owners, the same sand";
+    EXPECT_EQ(map.view().of(9), 2);
 }
 
 TEST(Letters, ArriveFromEveryRank)

@@ -10,8 +10,7 @@ namespace contact_borders_test
 {
 
 constexpr double               radius = 0.1, allowed = 0.05;
-constexpr mpm::PageLattice     lattice{0.25, 0.0}; // pages of 1 m
-constexpr contact::BorderReach reach{0.2, 0.15, 0.0};
+constexpr contact::BorderReach reach{0.2, 0.15, 0.6};
 
 template<class Exec>
 class Borders : public DemTest<Exec>
@@ -19,7 +18,7 @@ class Borders : public DemTest<Exec>
 protected:
     using Scene = SolidScene<Exec>;
 
-    /// Four balls, one in the middle of each page along x; the last is a ghost. The second is large.
+    /// Four balls in a row along x; the last is a ghost. The second is large.
     static Scene row(const Exec& exec)
     {
         std::vector<Solid> solids;
@@ -40,16 +39,17 @@ protected:
 
     static std::vector<std::int32_t> listed(const Exec& exec, Scene& scene, contact::Borders<Exec>& borders)
     {
-        contact::list_borders(exec, borders, scene.pairs, scene.bodies.view(), lattice, reach);
+        contact::list_borders(exec, borders, scene.pairs, scene.bodies.view(), reach);
         return borders.body.to_host();
     }
 
-    static std::vector<mpm::Surroundings> around(const contact::Borders<Exec>& borders)
+    /// Further than the balls found last reach by 0.2 m for bodies, and by 0.1 m for sand.
+    static std::vector<contact::Clearance> clear(const contact::Borders<Exec>& borders)
     {
-        std::vector<mpm::Surroundings> found;
+        std::vector<contact::Clearance> found;
         for (const contact::BorderBody& ball : borders.ball.to_host())
         {
-            found.push_back(mpm::surroundings(lattice, ball.position, ball.radius));
+            found.push_back({ball.position, {ball.reach.bodies + 0.2, ball.reach.sand + 0.1}});
         }
         return found;
     }
@@ -65,29 +65,36 @@ TYPED_TEST(Borders, WhatIsNotKnownIsListed)
     auto found = this->borders(this->exec());
     EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{0, 1, 2}));
     const auto balls = found.ball.to_host();
-    EXPECT_EQ(balls[0].radius, radius + allowed + reach.met_by_small);
-    EXPECT_EQ(balls[1].radius, radius + allowed + reach.met_by_large);
+    EXPECT_EQ(balls[0].reach.bodies, radius + allowed + reach.met_by_small);
+    EXPECT_EQ(balls[0].reach.sand, radius + allowed + reach.sand);
+    EXPECT_EQ(balls[1].reach.bodies, radius + allowed + reach.met_by_large);
     EXPECT_EQ(balls[2].position, Vec3<double>(2.5, 0.5, 0.5));
 }
 
-/// Until it leaves its page, may go further, or owners of pages change.
+/// Until it may go further than what is known to be this rank's, or owners of pages change.
 TYPED_TEST(Borders, WhatIsInsideStaysOnTheBackend)
 {
     auto scene = this->row(this->exec());
     auto found = this->borders(this->exec());
     this->listed(this->exec(), scene, found);
-    contact::keep_inside(this->exec(), found, found.body.to_host(), this->around(found));
+    contact::keep_clearances(this->exec(), found, found.body.to_host(), this->clear(found));
     EXPECT_EQ(this->listed(this->exec(), scene, found), Bodies{});
 
     auto position = scene.bodies.position.to_host();
-    position[0][0] += 0.3; // within its page
-    position[2][1] += 0.6;
+    position[0][0] += 0.09;
+    position[2][1] += 0.11; // sand of another rank may be there
     scene.bodies.position.assign(position);
     EXPECT_EQ(this->listed(this->exec(), scene, found), Bodies{2});
 
-    scene.pairs.displacement.allowed.assign({allowed, 1.0, allowed, allowed});
+    scene.pairs.displacement.allowed.assign({allowed, allowed + 0.11, allowed, allowed});
     EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{1, 2}));
-    contact::forget_inside(this->exec(), found);
+    auto further = this->clear(found); // of the two listed
+    further[0].within.sand += 1;
+    further[1].within.sand += 1;
+    further[1].within.bodies -= 0.21;
+    contact::keep_clearances(this->exec(), found, found.body.to_host(), further);
+    EXPECT_EQ(this->listed(this->exec(), scene, found), Bodies{2}) << "another body may be there";
+    contact::forget_clearances(this->exec(), found);
     EXPECT_EQ(this->listed(this->exec(), scene, found), (Bodies{0, 1, 2}));
 }
 

@@ -12,13 +12,22 @@ using Words = std::vector<std::int32_t>;
 
 TEST(BodyHolding, WordsAreReadAsTheyWereWritten)
 {
-    const std::vector<BodyHolding> held{{3, 1, {0, 1}}, {7, 1, {1, 2, 3}}};
-    const auto                     read = read_holdings(words_of(held), 1, 4, 10);
+    const Words  two{0, 1}, three{1, 2, 3};
+    BodyHoldings held;
+    held.add({3, 1, two});
+    held.add({7, 1, three});
+    EXPECT_EQ(held.words(), (Words{3, 1, 2, 0, 1, 7, 1, 3, 1, 2, 3}));
+    const auto read = read_holdings(held.words(), 1, 4, 10);
     ASSERT_TRUE(read.has_value());
-    ASSERT_EQ(read->size(), 2U);
-    EXPECT_EQ((*read)[1].body, 7);
-    EXPECT_EQ((*read)[1].owner, 1);
-    EXPECT_EQ((*read)[1].holders, (Words{1, 2, 3}));
+    Words bodies, holders;
+    for (const BodyHolding& body : *read)
+    {
+        bodies.push_back(body.body);
+        EXPECT_EQ(body.owner, 1);
+        holders.insert(holders.end(), body.holders.begin(), body.holders.end());
+    }
+    EXPECT_EQ(bodies, (Words{3, 7}));
+    EXPECT_EQ(holders, (Words{0, 1, 1, 2, 3}));
     EXPECT_TRUE(read_holdings({}, 1, 4, 10)->empty());
 }
 

@@ -16,13 +16,11 @@ struct PageLattice
     double stencil_shift; ///< in spacings
 };
 
-/// A page and the number of pages around it that a query considers; none by default.
-struct Surroundings
+/// Balls around one centre, m: other bodies within the first matter, and sand within the second.
+struct Reach
 {
-    std::uint64_t page  = no_page;
-    std::int32_t  reach = 0;
-
-    TREAD_HD bool operator==(const Surroundings& other) const { return page == other.page && reach == other.reach; }
+    double bodies;
+    double sand;
 };
 
 inline constexpr std::int32_t most_reach = 15; ///< pages; largest reach for which a ball's surroundings are looked up
@@ -44,11 +42,11 @@ TREAD_HD Index3 page_at(const PageLattice& lattice, const Vec3<double>& x)
             page_coordinate(x[2], lattice.spacing, lattice.stencil_shift, -limit, limit)};
 }
 
-/// Pages that a ball (m) can reach, wherever its centre lies within its page.
-TREAD_HD Surroundings surroundings(const PageLattice& lattice, const Vec3<double>& centre, double radius)
+/// Number of pages that a ball (m) reaches in any direction, wherever its centre lies within its page.
+TREAD_HD std::int32_t pages_reached(const PageLattice& lattice, double radius)
 {
     const double pages = std::ceil(radius / (lattice.spacing * page_edge)), most = most_reach + 1;
-    return {page_key(page_at(lattice, centre)), static_cast<std::int32_t>(pages < most ? pages : most)};
+    return static_cast<std::int32_t>(pages < most ? pages : most);
 }
 
 } // namespace tread::mpm
