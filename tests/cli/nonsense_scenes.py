@@ -1,16 +1,13 @@
 #!/usr/bin/env python3
 """Scenes that nobody can mean, and what `tread check` says of each: a warning with the value that seems meant, or a refusal (exit code 2).
 
-No scene of configs/ warns: small ones are held here, the others in paper_checks.py."""
+No scene of configs/ warns: paper_checks.py."""
 
 import json
-import pathlib
 import re
 import unittest
 
 from command import CommandTest
-
-CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
 
 # A driven wheel on a bed; sensible as it stands.
 BASE = """\
@@ -187,11 +184,6 @@ class NonsenseScenes(CommandTest):
         self.assertEqual(json.loads((self.output / "summary.json").read_text())["resolution"]["verdict"], "under-resolved")
         verdicts = re.findall(r"^resolution: ([a-z-]+)", (self.output / "log.txt").read_text(), re.MULTILINE)
         self.assertEqual(verdicts, ["under-resolved"])
-
-    def test_small_scenes_of_configs_warn_of_nothing(self):
-        for path in [CONFIGS / "quickstart.toml", *sorted((CONFIGS / "paper" / "reduced").glob("*.toml"))]:
-            with self.subTest(path.name):
-                self.assertEqual(self.warnings(self.tread("check", path)), [])
 
 
 if __name__ == "__main__":

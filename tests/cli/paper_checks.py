@@ -11,8 +11,8 @@ from command import CommandTest
 
 CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
 PAPER = CONFIGS / "paper"
-FURTHER = ["*.toml", "studies/*.toml", "campaigns/scenes/*.toml", "paper/coarse/*.toml", "validation/scenes/*.toml",
-           "rover/*.toml", "soil/*.toml", "soil/reduced/*.toml", "grains/*.toml", "grains/reduced/*.toml"]
+FURTHER = ["*.toml", "studies/*.toml", "campaigns/scenes/*.toml", "paper/coarse/*.toml", "paper/reduced/*.toml",
+           "validation/scenes/*.toml", "rover/*.toml", "soil/*.toml", "soil/reduced/*.toml", "grains/*.toml", "grains/reduced/*.toml"]
 
 # Points: the paper's own count or the lattice's, less the volume of the rocks that stand in the sand; rocks by the scene.
 POINTS = {"head_on_1": 33552, "head_on_8": 268096, "head_on_27": 904960, "wheel_drop_sand": 1150000,

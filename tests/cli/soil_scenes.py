@@ -20,12 +20,6 @@ class SoilScenes(SoilCase):
         run = self.run_twin("oedometer")
         self.compare(run, "modulus", 0.02 * 1.346e7, "2 %: the error falls from 7 % on four cells to 1 % on eight")
 
-    def test_triaxial(self):
-        run = self.run_twin("triaxial")
-        self.compare(run, "peak_ratio", 0.02 * 3, "2 %: half a degree of the friction angle")
-        self.compare(run, "stress_ratio", 0.02 * 3, "2 %, as the peak: the soil is perfectly plastic")
-        self.compare(run, "dilation", 1.0, "a tenth of the angle: strains of plates, which the contacts share in")
-
     def test_collapse(self):
         self.compare(self.run_twin("collapse"), "run_out", 0.15 * 1.2, "the two laboratories are 15 % apart")
 

@@ -9,13 +9,7 @@ namespace footing_test
 using namespace tread;
 
 template<class Exec>
-class FootingPhysics : public test::BackendTest<Exec>
-{
-};
-TYPED_TEST_SUITE(FootingPhysics, test::Backends, test::BackendNames);
-
-template<class Exec>
-class FullSizeFooting : public FootingPhysics<Exec>
+class FullSizeFooting : public test::BackendTest<Exec>
 {
 };
 TYPED_TEST_SUITE(FullSizeFooting, test::Backends, test::BackendNames);
@@ -54,7 +48,7 @@ test::Footing frictional(int cells, double dilation, double cohesion)
 
 /// docs/verification.md#strip-footing (i): the load reaches Prandtl's q = (2 + pi) c and stays there; with the
 /// volumetric strain of every single point it is larger, and rises.
-TYPED_TEST(FootingPhysics, UndrainedClayCarriesPrandtlsLoadWithCellAverages)
+TYPED_TEST(FullSizeFooting, UndrainedClayCarriesPrandtlsLoadWithCellAverages)
 {
     const double plateau = 0.02;
     const auto   push    = [&](int cells, const std::string& volume_strain)

@@ -13,13 +13,7 @@ namespace slope_test
 using namespace tread;
 
 template<class Exec>
-class Slope : public test::BackendTest<Exec>
-{
-};
-TYPED_TEST_SUITE(Slope, test::Backends, test::BackendNames);
-
-template<class Exec>
-class FullSizeSlope : public Slope<Exec>
+class FullSizeSlope : public test::BackendTest<Exec>
 {
 };
 TYPED_TEST_SUITE(FullSizeSlope, test::Backends, test::BackendNames);
@@ -91,7 +85,7 @@ Middle middle(Experiment& slope)
 }
 
 /// Below the angle of friction it does not move.
-TYPED_TEST(Slope, LayerStaysBelowItsAngle)
+TYPED_TEST(FullSizeSlope, LayerStaysBelowItsAngle)
 {
     test::Experiment<TypeParam> slope(this->exec(), slope_text(22, "", 0.2, 0.2));
     Middle                      before{};

@@ -24,7 +24,7 @@ constexpr double mm = 1e-3;
 /// docs/verification.md#points-during-the-substeps: a point that recoils freely in the substeps unloads its tangential
 /// spring in every step, and a sphere that friction should hold creeps at 41 mm/s. With the grid's acceleration applied
 /// to the points, it stays as with N = 1.
-TYPED_TEST(SphereOnBed, FrictionHoldsItAgainstASidewaysForce)
+TYPED_TEST(FullSizeSphereOnBed, FrictionHoldsItAgainstASidewaysForce)
 {
     test::SphereOnBed bed;
     bed.sideways         = 0.15;
