@@ -84,15 +84,13 @@ void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
 
     const auto held = [&](const std::vector<std::int32_t>& values) -> accept::Verdict
     {
-        const auto read     = read_holdings(values, here, communicator().size(), count);
-        const auto is_owned = [&](const BodyHolding& body)
-        { return std::binary_search(owned.begin(), owned.end(), body.body); };
-        bool all = read.has_value();
-        if (all)
+        const auto read   = read_holdings(values, here, communicator().size(), count);
+        bool       is_own = read.has_value();
+        for (const BodyHolding& body : read.value_or(BodyHoldings()))
         {
-            for (const BodyHolding& body : *read) { all = all && is_owned(body); }
+            is_own = is_own && std::binary_search(owned.begin(), owned.end(), body.body);
         }
-        if (all) { return {}; }
+        if (is_own) { return {}; }
         return accept::Refusal{-1, "other words", "body, owner, number of holders and holders of shared bodies"};
     };
     file.own("ranks/body", owned, accept::all(accept::index(count), accept::ascending(), accept::distinct()));
