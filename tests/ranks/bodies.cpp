@@ -173,6 +173,61 @@ position = [{}, 0.1, 0.05]
     }
 }
 
+/// A rock in one rank's pages, 0.12 m from those of another, which it cannot reach; and 0.29 m from them. Sand may come
+/// six spacings, 0.24 m, out of pages that it has been in.
+TYPED_TEST(BodiesOfRanks, SandOfAnotherRankCountsWhereItHasBeen)
+{
+    const Vec3<double> size(0.8, 0.2, 0.2);
+    const auto         halves = [second = std::min(1, this->ranks() - 1)](const Vec3<double>& page)
+    { return page[0] < 0.37 ? 0 : second; };
+    const std::string sand = R"(
+[grid]
+spacing = 0.04
+[[material]]
+name               = "sand"
+model              = "mohr-coulomb"
+density            = 1600.0
+young              = 1.0e6
+poisson            = 0.3
+friction_angle_deg = 32.0
+dilation_angle_deg = 0.0
+cohesion           = 0.0
+[[contact]]
+between  = ["stone", "sand"]
+friction = 0.4
+[[terrain]]
+material = "sand"
+region   = { box = [[0.4, 0.0, 0.0], [0.8, 0.2, 0.12]] }
+[[body]]
+name     = "rock"
+shape    = "clast"
+material = "stone"
+density  = 2700.0
+diameter = 0.04
+)";
+    struct Case
+    {
+        double x;
+        bool   has_been, shared;
+    };
+    for (const Case& one : {Case{0.22, true, true}, Case{0.22, false, false}, Case{0.05, true, false}})
+    {
+        const scene::Scene scene = test::load_text(
+            test::rock_domain(size, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
+            test::stone(stone_young, 0.5, 0.5) + clast(162) + sand +
+            fmt::format("position = [{}, 0.1, 0.05]\n", one.x) + fixed_step(2e-4) + test::phase("fall", 0, 1));
+        const world::World               world = world::build_world(scene);
+        decomp::Decomposition<TypeParam> decomposition(test::world(), this->exec(), {});
+        const test::OwnedPages           pages = test::pages_of(solver::page_lattice_of(world), size, halves);
+        decomposition.owners.assign(pages.key, pages.rank);
+        if (one.has_been) { decomposition.owners.enter_sand(solver::pages_of(world).with_sand); }
+        solver::DemSolver<TypeParam> rigid(this->exec(), scene, world,
+                                           solver::make_plan(scene, world, test::world().size()), &decomposition);
+        rigid.find_pairs(2e-4);
+        EXPECT_EQ(rigid.shares(), one.shared && this->ranks() > 1 && test::world().rank() < 2) << one.x;
+    }
+}
+
 /// A heap of 1,000 rocks that slumps along x under a tilted gravity of several g.
 std::string heap(int rocks, const std::string& form)
 {
