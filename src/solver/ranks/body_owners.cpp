@@ -118,7 +118,7 @@ BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
         const contact::BorderBody& ball = bodies.ball[i];
         if (is_jointed_[b] != 0)
         {
-            found.shared.add({body, next_owner(b, ball.position), all});
+            if (all.size() > 1) { found.shared.add({body, next_owner(b, ball.position), all}); }
             continue;
         }
         const mpm::Reach clear = ownership_->clear_of_others(here, ball.position, ball.reach);
@@ -145,11 +145,11 @@ RoleChanges BodyOwners::take_roles(const BodyHoldings& decided, const BodyHoldin
     RoleChanges changes;
     const auto  take = [&](std::int32_t body, std::int32_t role)
     {
-        std::int32_t& last = role_[static_cast<std::size_t>(body)];
-        if (last == role) { return; }
-        owned_.add(body, last, -1);
+        std::int32_t& present = role_[static_cast<std::size_t>(body)];
+        if (present == role) { return; }
+        owned_.add(body, present, -1);
         owned_.add(body, role, 1);
-        last = role;
+        present = role;
         changes.body.push_back(body);
         changes.role.push_back(role);
     };
