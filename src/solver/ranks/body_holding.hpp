@@ -55,7 +55,6 @@ public:
 
     void add(const BodyHolding& holding);
 
-    bool     empty() const { return words_.empty(); }
     Iterator begin() const { return Iterator(words_.data()); }
     Iterator end() const { return Iterator(words_.data() + words_.size()); }
 

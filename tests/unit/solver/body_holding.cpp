@@ -28,7 +28,7 @@ TEST(BodyHolding, WordsAreReadAsTheyWereWritten)
     }
     EXPECT_EQ(bodies, (Words{3, 7}));
     EXPECT_EQ(holders, (Words{0, 1, 1, 2, 3}));
-    EXPECT_TRUE(read_holdings({}, 1, 4, 10)->empty());
+    EXPECT_TRUE(read_holdings({}, 1, 4, 10)->words().empty());
 }
 
 TEST(BodyHolding, OtherWordsAreRefused)
