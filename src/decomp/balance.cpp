@@ -82,6 +82,15 @@ AllPages gather_pages(const Communicator& communicator, const PageLoads& own)
     return {page_graph(std::move(key), std::move(load)), std::move(present)};
 }
 
+/// New owners, of which as many as possible are those that have most load on a page now.
+PageRanks new_owners(const Communicator& communicator, const AllPages& pages)
+{
+    PartitionOptions options;
+    options.ranks         = communicator.size();
+    const Partition parts = make_partition(communicator, pages.graph, options);
+    return stay_put(parts.rank, pages.present, pages.graph.load, options.ranks);
+}
+
 double moved_between(const AllPages& pages, const PageRanks& to)
 {
     double moved = 0;
@@ -131,21 +140,31 @@ bool Balance<Exec>::is_due(std::int64_t step) const
 template<class Exec>
 bool Balance<Exec>::repartition(const PageLoads& own, std::int64_t step)
 {
-    const AllPages   pages = gather_pages(decomposition_.communicator, own);
-    PartitionOptions options;
-    options.ranks                   = decomposition_.ranks();
-    const Partition           parts = make_partition(decomposition_.communicator, pages.graph, options);
-    const PageRanks           ranks = stay_put(parts.rank, pages.present, pages.graph.load, options.ranks);
-    const std::vector<double> after = loads_of(pages.graph, ranks, options.ranks);
+    const AllPages            pages = gather_pages(decomposition_.communicator, own);
+    const PageRanks           ranks = new_owners(decomposition_.communicator, pages);
+    const std::vector<double> after = loads_of(pages.graph, ranks, decomposition_.ranks());
     if (!rule_.is_worth(state_.row.loads, after, moved_between(pages, ranks), step - state_.partitioned))
     {
         state_.not_before = 2 * step - state_.partitioned;
         return false;
     }
-    decomposition_.owners.assign(pages.graph.key, ranks);
+    assign(pages.graph.key, ranks, step);
+    return true;
+}
+
+template<class Exec>
+void Balance<Exec>::repartition_anew(const PageLoads& own, std::int64_t step)
+{
+    const AllPages pages = gather_pages(decomposition_.communicator, own);
+    assign(pages.graph.key, new_owners(decomposition_.communicator, pages), step);
+}
+
+template<class Exec>
+void Balance<Exec>::assign(const std::vector<std::uint64_t>& pages, const PageRanks& ranks, std::int64_t step)
+{
+    decomposition_.owners.assign(pages, ranks);
     state_.partitioned = step;
     ++state_.row.repartitions;
-    return true;
 }
 
 template<class Exec>

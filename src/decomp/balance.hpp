@@ -62,6 +62,9 @@ public:
     /// migrate before the next query of an owner. `own`: loads of this rank.
     bool repartition(const PageLoads& own, std::int64_t step);
 
+    /// The same where the present partition was made for other loads than those of note(): whether it pays is not asked.
+    void repartition_anew(const PageLoads& own, std::int64_t step);
+
     /// Records this rank's load and the number of points that migrated, on all ranks; call after points or bodies may
     /// have changed rank.
     void note(double load, std::int64_t points_moved);
@@ -79,6 +82,8 @@ public:
     void         resume(State state) { state_ = std::move(state); }
 
 private:
+    void assign(const std::vector<std::uint64_t>& pages, const PageRanks& ranks, std::int64_t step);
+
     Decomposition<Exec>& decomposition_;
     BalanceRule          rule_;
     State                state_;

@@ -165,12 +165,26 @@ void Simulation<Exec, Real>::send_records()
 }
 
 template<class Exec, class Real>
-void Simulation<Exec, Real>::repartition_pages()
+decomp::PageLoads Simulation<Exec, Real>::page_loads() const
 {
     decomp::PageLoads loads;
     if (sand_) { sand_->add_loads(loads); }
     if (rigid_) { rigid_->add_loads(loads); }
-    if (balance_->repartition(loads) && sand_) { sand_->follow_owners(); }
+    return loads;
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::repartition_pages()
+{
+    if (balance_->repartition(page_loads()) && sand_) { sand_->follow_owners(); }
+}
+
+/// The present owners of pages were chosen for the places of the scene's start.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::repartition_loaded()
+{
+    balance_->repartition_anew(page_loads());
+    if (sand_) { sand_->follow_owners(); }
 }
 
 /// Contact lists stay valid until the next measurement; the number of substeps follows from the contacts listed.
@@ -372,6 +386,7 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
     ledger_->transfer(file);
     if (file.loads()) { set_gravity(ledger_->gravity()); }
     if (guard_) { guard_->transfer(file); }
+    if (balance_ && file.loads() && !file.exact()) { repartition_loaded(); }
 }
 
 #define TREAD_INSTANTIATE(Exec, Real) template class Simulation<Exec, Real>

@@ -158,11 +158,15 @@ private:
     void          list_points();
     void          send_records();
     void          repartition_pages();
+    void          repartition_loaded();
     void          list_contacts(double span, StageClock& clock);
     void          measure();
     ContactReport measure_contacts();
     std::int64_t  steps_to_measure() const;
     double        moving_mass() const { return (sand_ ? sand_->mass() : 0) + (rigid_ ? rigid_->mass() : 0); }
+
+    /// Predicted work of this rank, in points, by page.
+    decomp::PageLoads page_loads() const;
 
     /// Energies over all ranks, as of the last substep. Collective.
     ContactEnergies contact_energies() const;

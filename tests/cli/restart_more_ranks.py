@@ -1,10 +1,23 @@
 #!/usr/bin/env python3
 """What restart_ranks.py has of sand, joints and changes of the number of ranks, for ci/full."""
 
+import re
 import unittest
 
 from command import MPIRUN, SCENE
-from restart_test import ASLEEP, JOINTED, MIXED, STREWN, RestartTest, lasting
+from restart_test import ASLEEP, JOINTED, MIXED, STREWN, WITH_ROCK, RestartTest, datasets, lasting
+
+# Rocks that rain from a column six times as high as what they come to rest in.
+FALLING = lasting(re.sub(r"\[\[terrain\]\].*?\n\n", "", WITH_ROCK, flags=re.S), 0.5).replace("[0.4, 0.4, 0.4]", "[0.2, 0.1, 1.0]") + """
+[[rocks]]
+shape     = "roller"
+material  = "steel"
+count     = 150
+diameter  = 0.03
+region    = { box = [[0.0, 0.0, 0.0], [0.2, 0.1, 1.0]] }
+placement = "rain"
+seed      = 1
+"""
 
 
 class RestartOnMoreRanks(RestartTest):
@@ -25,6 +38,14 @@ class RestartOnMoreRanks(RestartTest):
 
     def test_jointed_bodies_from_two_ranks_to_three_agree_as_far_as_chaos_lets_them(self):
         self.check_other_number_of_ranks(JOINTED, 2, 3)
+
+    def test_fallen_rocks_are_shared_out_by_where_they_are(self):
+        self.run_scene(FALLING, self.output, "--set=checkpoint.every_steps=100")
+        self.run_scene(FALLING, self.directory / "on2", "--restart", self.checkpoints()[-1], launcher=(*MPIRUN, "-n", "2"))
+        ranks = datasets(self.directory / "on2" / "timeseries.h5")["ranks"]
+        print(f"  imbalance: {ranks['imbalance'][-1]:.3f}; expected: 1.15 at most, the threshold of [balance]")
+        self.assertEqual(ranks["repartitions"][-1], 1)
+        self.assertLess(ranks["imbalance"][-1], 1.15)
 
     def test_sleeping_sand_on_two_ranks_restarted_gives_the_same_bits(self):
         self.check_uninterrupted_is_stopped_and_restarted(ASLEEP, (*MPIRUN, "-n", "2"))

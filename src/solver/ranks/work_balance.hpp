@@ -24,6 +24,9 @@ public:
     /// Assigns new owners to all pages, if that pays; returns whether it did. `loads`: of this rank.
     bool repartition(const decomp::PageLoads& loads) { return balance_.repartition(loads, steps_); }
 
+    /// Assigns new owners to all pages, for loads that the present ones were not chosen for.
+    void repartition_anew(const decomp::PageLoads& loads) { balance_.repartition_anew(loads, steps_); }
+
     /// Whether the load at this layout version was recorded.
     bool has_noted(std::int64_t version) const { return version == noted_; }
 

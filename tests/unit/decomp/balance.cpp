@@ -82,6 +82,22 @@ TEST(Balance, DealsOutWhatOneRankHasTooMuchOf)
     EXPECT_LT(imbalance_of(loads), 1.15);
 }
 
+TEST(Balance, AnewIsNotAskedWhetherItPays)
+{
+    const int          ranks = test::world().size();
+    Counters           counters;
+    Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
+    Balance<Cpu>       balance(decomposition, 1.15);
+    const PageLoads    own = mostly_of_the_first();
+    balance.note(sum_of(own), 0);
+    ASSERT_FALSE(balance.repartition(own, 0)) << "no step has shown that it would";
+    balance.repartition_anew(own, 0);
+    EXPECT_EQ(balance.row().repartitions, 1);
+    std::vector<double> loads(static_cast<std::size_t>(ranks), 0.0);
+    for (const std::int32_t owner : decomposition.owners.ranks()) { loads[static_cast<std::size_t>(owner)] += 100; }
+    EXPECT_LT(imbalance_of(loads), 1.15);
+}
+
 TEST(Balance, WaitsTwiceAsLongWhereItWasNotWorthIt)
 {
     if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
