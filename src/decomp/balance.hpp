@@ -62,7 +62,8 @@ public:
     /// migrate before the next query of an owner. `own`: loads of this rank.
     bool repartition(const PageLoads& own, std::int64_t step);
 
-    /// The same where the present partition was made for other loads than those of note(): whether it pays is not asked.
+    /// The same where the present partition was made for other loads than those of note(): whether it pays is not
+    /// asked.
     void repartition_anew(const PageLoads& own, std::int64_t step);
 
     /// Records this rank's load and the number of points that migrated, on all ranks; call after points or bodies may
