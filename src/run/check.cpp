@@ -122,7 +122,7 @@ std::string rank_line(const world::World& world, const Estimate& wants, int rank
     return fmt::format(
         "each of {} ranks: memory about {} on the backend; set-up of the sand {} on the host, {} of them "
         "for its {} points and {} for the rows of all\n",
-        ranks, bytes_text(wants.memory_bytes / ranks),
+        ranks, bytes_text(memory_of_rank(wants, ranks)),
         bytes_text(share * world::bytes_of_made_point() + world::bytes_of(world.sand)),
         bytes_text(share * world::bytes_of_made_point()), share, bytes_text(world::bytes_of(world.sand)));
 }

@@ -22,6 +22,7 @@ struct DiskUse
 struct Estimate
 {
     std::int64_t memory_bytes;   ///< memory of the backend
+    std::int64_t copied_bytes;   ///< of it what each of several ranks has whole: bodies and shapes
     double       bytes_a_point;  ///< memory of the sand, pages included; 0 without sand
     std::int64_t snapshot_bytes; ///< host memory while a snapshot is written asynchronously; 0 without
     DiskUse      disk;
@@ -36,6 +37,9 @@ struct Estimate
     double       resting_contact; ///< s, least sqrt(m / sum K) of rocks that lie on each other; 0 without rocks
     double       node_pages;      ///< pages of grid nodes at the start
 };
+
+/// Memory of the backend that each of `ranks` needs, bytes.
+std::int64_t memory_of_rank(const Estimate& wants, int ranks);
 
 /// Throws EnvironmentError when a run that needs `wanted` bytes of "host" or "device" memory does not fit into `free`
 /// even if the estimate is a tenth too high.

@@ -220,7 +220,7 @@ void begin(Job& job)
 ExitCode run_backend(Backend backend, Job& job)
 {
     Counters           counters;
-    const std::int64_t wanted = job.wants.memory_bytes / job.communicator.size();
+    const std::int64_t wanted = memory_of_rank(job.wants, job.communicator.size());
     counters.expect(wanted);
     ExitCode code = ExitCode::finished;
     if (backend == Backend::cpu)

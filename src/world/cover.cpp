@@ -3,12 +3,15 @@
 #include "kernels/contact/samples_kern.hpp"
 #include "world/body_grid.hpp"
 #include "world/materials.hpp"
+#include "world/reached_cells.hpp"
 #include "world/touch_table.hpp"
 
 namespace tread::world
 {
 
 double PointReach::search(double radius) const { return (sampled_below > 0 ? 1 + contact::patch_reach : 1.0) * radius; }
+
+double PointReach::farthest(const Sand& sand) const { return search(radius(largest_volume(sand))); }
 
 double sampled_below(const scene::Scene& scene, const Sand& sand)
 {
@@ -46,9 +49,11 @@ std::vector<std::int64_t> covered_points(const scene::Scene& scene, const World&
     for (std::size_t body = 0; body < world.bodies.size(); ++body) { grid.add(body); }
     const PointReach          reach = make_point_reach(scene, world.sand);
     const TouchTable          touch = touch_table(scene, 0);
+    const ReachedCells        cells(world, reach.farthest(world.sand));
     std::vector<std::int64_t> covered(world.bodies.size(), 0);
     const auto                look = [&](const SandPoint& point)
     {
+        if (!cells.may_be_near(point.position)) { return; }
         const double radius = reach.radius(point.kind.volume);
         grid.any_near(point.position, reach.search(radius),
                       [&](std::size_t body)

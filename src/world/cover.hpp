@@ -19,6 +19,9 @@ struct PointReach
 
     /// m, largest distance from a body at which a point of that radius may touch it.
     double search(double radius) const;
+
+    /// The same for the largest of the points; 0 without points.
+    double farthest(const Sand& sand) const;
 };
 
 /// Equivalent radius of a body, m, under which sand samples it at nine places; 0 = never.

@@ -11,6 +11,7 @@
 #include "world/grading.hpp"
 #include "world/layers.hpp"
 #include "world/push_out.hpp"
+#include "world/reached_cells.hpp"
 #include "world/touch_table.hpp"
 
 namespace tread::world
@@ -54,10 +55,12 @@ std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, c
 {
     const auto         table = tables_of(world.bodies);
     const TouchTable   touch = touch_table(scene, 0);
+    const ReachedCells cells(world, reach.farthest(world.sand));
     std::vector<Touch> touches;
     const auto         find = [&](const SandPoint& point, std::vector<Touch>& found)
     {
-        const Vec3<double>& x      = point.position;
+        const Vec3<double>& x = point.position;
+        if (!cells.may_be_near(x)) { return; }
         const double        radius = reach.radius(point.kind.volume);
         const auto&         own    = scene.terrain[static_cast<std::size_t>(point.kind.terrain)];
         grid.any_near(x, reach.search(radius),

@@ -28,7 +28,10 @@ struct Moments
 
 void append(const Moments& all, std::vector<double>& to)
 {
-    to.insert(to.end(), {static_cast<double>(all.count), all.sum, all.moment[0], all.moment[1], all.moment[2]});
+    for (const double value : {static_cast<double>(all.count), all.sum, all.moment[0], all.moment[1], all.moment[2]})
+    {
+        to.push_back(value);
+    }
 }
 
 /// Moments of the points' masses, and of their volumes.

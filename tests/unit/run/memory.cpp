@@ -75,6 +75,17 @@ TEST(Memory, EstimateIsTrueWithinATenth)
     expect_true_estimate<float>(finer(test::roller_text), {single});
 }
 
+TEST(Memory, AllRanksHaveTheBodiesAndAShareOfTheRest)
+{
+    const scene::Scene scene = load_text(test::sand_text + test::rocks_text + "placement = \"replace\"\n");
+    const world::World world = world::build_world(scene);
+    const Estimate     wants = estimate(scene, world, solver::make_plan(scene, world));
+    EXPECT_GT(wants.copied_bytes, static_cast<std::int64_t>(sizeof(double) * 13 * world.bodies.size()));
+    EXPECT_EQ(memory_of_rank(wants, 1), wants.memory_bytes);
+    EXPECT_EQ(memory_of_rank(wants, 2), wants.copied_bytes + (wants.memory_bytes - wants.copied_bytes) / 2);
+    EXPECT_NEAR(static_cast<double>(memory_of_rank(wants, 1 << 30)), static_cast<double>(wants.copied_bytes), 1);
+}
+
 TEST(Memory, EstimateHasRoomForAllSandToSleep)
 {
     const scene::Scene scene =
