@@ -11,11 +11,11 @@ namespace tread::world
 namespace
 {
 
-/// Cells are at most this many for each body, and this many for few: 8 bytes a body.
+/// Largest number of cells for each body, 8 bytes, and where bodies are few.
 constexpr double cells_a_body = 64;
 constexpr double most_for_few = 1e6;
 
-/// Of a radius, so that no rounding hides a body from a point at its very edge.
+/// Enlarges a radius, so that no rounding hides a body from a point at its very edge.
 constexpr double rounding = 1 + 1e-9;
 
 double reached(const World& world, std::size_t body, double reach)
