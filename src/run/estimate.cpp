@@ -358,7 +358,7 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     const auto       bodies = static_cast<std::int64_t>(world.bodies.size());
     const PageCounts pages  = plan.sand ? count_pages(world) : PageCounts{};
     Estimate         wants{};
-    wants.time         = longest_time(scene);
+    wants.time                = longest_time(scene);
     const std::int64_t shapes = template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
     wants.memory_bytes =
         bodies * (bytes_per_body(plan) + sleep_bytes_per_body(plan)) + shapes + strewn_bed_bytes(world, plan);

@@ -61,8 +61,8 @@ std::vector<Touch> find_touches(const scene::Scene& scene, const World& world, c
     {
         const Vec3<double>& x = point.position;
         if (!cells.may_be_near(x)) { return; }
-        const double        radius = reach.radius(point.kind.volume);
-        const auto&         own    = scene.terrain[static_cast<std::size_t>(point.kind.terrain)];
+        const double radius = reach.radius(point.kind.volume);
+        const auto&  own    = scene.terrain[static_cast<std::size_t>(point.kind.terrain)];
         grid.any_near(x, reach.search(radius),
                       [&](std::size_t body)
                       {

@@ -49,10 +49,7 @@ ReachedCells::ReachedCells(const World& world, double reach)
         size_[c]        = static_cast<std::int64_t>((high[axis] - low[axis]) * per_cell_) + 1;
     }
     reached_.resize(static_cast<std::size_t>(size_[0] * size_[1] * size_[2]));
-    for (std::size_t body = 0; body < count; ++body)
-    {
-        mark(world.bodies.position[body], reached(world, body, reach));
-    }
+    for (std::size_t body = 0; body < count; ++body) { mark(world.bodies.position[body], reached(world, body, reach)); }
 }
 
 /// Marks the cells of the box around a sphere.

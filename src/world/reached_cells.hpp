@@ -38,8 +38,8 @@ private:
 
     void mark(const Vec3<double>& centre, double radius);
 
-    Vec3<double>                low_ = Vec3<double>::Zero(); ///< m, corner of the first cell
-    double                      per_cell_ = 0;               ///< 1/m, one over the width of a cell
+    Vec3<double>                low_      = Vec3<double>::Zero(); ///< m, corner of the first cell
+    double                      per_cell_ = 0;                    ///< 1/m, one over the width of a cell
     std::array<std::int64_t, 3> size_{};
     std::vector<bool>           reached_;
 };
