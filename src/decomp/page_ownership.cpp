@@ -120,84 +120,106 @@ std::uint64_t PageOwnership::page_of(const Vec3<double>& place) const
 
 std::int32_t PageOwnership::owner_of(const Vec3<double>& place) { return owner_of(page_of(place)); }
 
-auto PageOwnership::find_others(const mpm::Index3& page, std::int32_t reach, Among among) -> OwnedPages
+auto PageOwnership::find_surroundings(std::uint64_t page_key, std::int32_t reach) -> Surroundings
 {
-    const std::int32_t own = owner_of(mpm::page_key(page));
-    OwnedPages         others;
+    const mpm::Index3         page = mpm::page_coordinates(page_key);
+    Surroundings              found{owner_of(page_key), {}, 0};
+    std::vector<std::int32_t> owners;
     for_each_around(page, reach,
                     [&](const mpm::Index3& at)
                     {
-                        const std::uint64_t key = mpm::page_key(at);
-                        if (among == Among::with_sand && !has_sand(key)) { return; }
-                        const std::int32_t owner = owner_of(key);
-                        if (owner != own) { others.push_back({at, owner}); }
+                        const std::uint64_t key   = mpm::page_key(at);
+                        const std::int32_t  owner = owner_of(key);
+                        if (owner == found.owner) { return; }
+                        found.others.push_back({at, owner, has_sand(key)});
+                        owners.push_back(owner);
                     });
-    return others;
+    std::stable_sort(found.others.begin(), found.others.end(),
+                     [&](const OwnedPage& a, const OwnedPage& b)
+                     { return squared_distance(page, a.page) < squared_distance(page, b.page); });
+    keep_each_once(owners);
+    found.owners = owners.size();
+    return found;
 }
 
-auto PageOwnership::others_near(std::uint64_t page_key, std::int32_t reach, Among among) -> const OwnedPages&
+auto PageOwnership::surroundings(std::uint64_t page_key, std::int32_t reach) -> const Surroundings&
 {
-    const auto [at, is_new] = others_[{reach, among}].try_emplace(page_key);
-    if (is_new) { at->second = find_others(mpm::page_coordinates(page_key), reach, among); }
+    const auto [at, is_new] = surroundings_[static_cast<std::size_t>(reach)].try_emplace(page_key);
+    if (is_new) { at->second = find_surroundings(page_key, reach); }
     return at->second;
 }
 
-/// Stops at a page within the radius, since then it does not matter how near.
-double PageOwnership::distance_to_others(const Vec3<double>& place, double radius, Among among)
+Vicinity PageOwnership::around(const Vec3<double>& place, const mpm::Reach& reach)
 {
-    const std::int32_t pages    = mpm::pages_reached(lattice_, radius);
-    const double       farthest = pages * width_of_page(lattice_);
-    double             nearest  = farthest * farthest;
-    for (const OwnedPage& other : others_near(page_of(place), pages, among))
+    const std::int32_t pages = mpm::pages_reached(lattice_, std::max(reach.bodies, reach.sand));
+    Vicinity           found(lattice_, all_, place, reach, pages);
+    if (pages > mpm::most_reach)
     {
-        nearest = std::min(nearest, squared_distance_to(lattice_, place, other.page));
-        if (nearest <= radius * radius) { break; }
+        found.owner_ = owner_of(place);
+        return found;
     }
-    return std::sqrt(nearest);
+    const Surroundings& near = surroundings(page_of(place), pages);
+    found.owner_             = near.owner;
+    found.others_            = &near.others;
+    found.owners_            = near.owners;
+    return found;
 }
 
-mpm::Reach PageOwnership::clear_of_others(std::int32_t rank, const Vec3<double>& place, const mpm::Reach& reach)
+Vicinity::Vicinity(const PageLattice& lattice, const std::vector<std::int32_t>& all, const Vec3<double>& place,
+                   const mpm::Reach& reach, std::int32_t pages)
+    : lattice_(&lattice)
+    , all_(&all)
+    , place_(place)
+    , reach_(reach)
+    , farthest_(pages * width_of_page(lattice))
 {
-    constexpr mpm::Reach unknown{0, 0};
-    const std::int32_t   pages = mpm::pages_reached(lattice_, std::max(reach.bodies, reach.sand));
-    if (pages > mpm::most_reach || owner_of(place) != rank) { return unknown; }
-    const double bodies = distance_to_others(place, reach.bodies, Among::all);
-    if (bodies <= reach.bodies) { return unknown; }
-    const double sand = distance_to_others(place, reach.sand, Among::with_sand);
-    return sand <= reach.sand ? unknown : mpm::Reach{bodies, sand};
 }
 
-bool PageOwnership::is_near(std::int32_t rank, const Vec3<double>& centre, double radius)
+bool Vicinity::is_reached(const OwnedPage& other) const
 {
-    const std::uint64_t page = page_of(centre);
-    if (owner_of(page) == rank) { return true; }
-    const OwnedPages& others = others_near(page, mpm::pages_reached(lattice_, radius), Among::all);
-    return std::any_of(others.begin(), others.end(),
-                       [&](const OwnedPage& other)
-                       { return other.owner == rank && reaches(lattice_, centre, radius, other.page); });
+    const double radius = other.has_sand ? std::max(reach_.bodies, reach_.sand) : reach_.bodies;
+    return reaches(*lattice_, place_, radius, other.page);
 }
 
-void PageOwnership::find_owners_near(const Vec3<double>& centre, const mpm::Reach& reach,
-                                     std::vector<std::int32_t>& ranks)
+void Vicinity::find_owners(std::vector<std::int32_t>& ranks) const
 {
-    if (mpm::pages_reached(lattice_, std::max(reach.bodies, reach.sand)) > mpm::most_reach)
+    if (is_wide())
     {
-        ranks = all_;
+        ranks = *all_;
         return;
     }
-    const std::uint64_t page = page_of(centre);
-    ranks.assign(1, owner_of(page));
-    const auto add = [&](double radius, Among among)
+    ranks.assign(1, owner_);
+    for (const OwnedPage& other : *others_)
     {
-        for (const OwnedPage& other : others_near(page, mpm::pages_reached(lattice_, radius), among))
-        {
-            const bool is_known = std::find(ranks.begin(), ranks.end(), other.owner) != ranks.end();
-            if (!is_known && reaches(lattice_, centre, radius, other.page)) { ranks.push_back(other.owner); }
-        }
-    };
-    add(reach.bodies, Among::all);
-    add(reach.sand, Among::with_sand);
+        if (ranks.size() > owners_) { break; }
+        const bool is_known = std::find(ranks.begin(), ranks.end(), other.owner) != ranks.end();
+        if (!is_known && is_reached(other)) { ranks.push_back(other.owner); }
+    }
     std::sort(ranks.begin(), ranks.end());
+}
+
+bool Vicinity::has(std::int32_t rank) const
+{
+    return owner_ == rank ||
+           (!is_wide() &&
+            std::any_of(others_->begin(), others_->end(),
+                        [&](const OwnedPage& other)
+                        { return other.owner == rank && reaches(*lattice_, place_, reach_.bodies, other.page); }));
+}
+
+mpm::Reach Vicinity::clear_of_others(std::int32_t rank) const
+{
+    constexpr mpm::Reach unknown{0, 0};
+    if (is_wide() || owner_ != rank) { return unknown; }
+    double bodies = farthest_ * farthest_, sand = bodies; // squares
+    for (const OwnedPage& other : *others_)
+    {
+        const double way = squared_distance_to(*lattice_, place_, other.page);
+        bodies           = std::min(bodies, way);
+        if (other.has_sand) { sand = std::min(sand, way); }
+        if (bodies <= reach_.bodies * reach_.bodies || sand <= reach_.sand * reach_.sand) { return unknown; }
+    }
+    return {std::sqrt(bodies), std::sqrt(sand)};
 }
 
 } // namespace tread::decomp

@@ -1,9 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
-#include <map>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "backend/vector.hpp"
@@ -15,6 +14,53 @@ namespace tread::decomp
 {
 
 using mpm::PageLattice;
+
+/// A page, who owns it, and whether sand has been in it.
+struct OwnedPage
+{
+    mpm::Index3  page;
+    std::int32_t owner;
+    bool         has_sand;
+};
+
+/// Owners around a place, out to `reach` (m) for bodies and for sand. Valid while the PageOwnership that it is from is.
+class Vicinity
+{
+public:
+    /// The owner of the page of the place.
+    std::int32_t owner() const { return owner_; }
+
+    /// Writes the ranks that own a page within reach, or one that sand has been in within the reach of sand, ascending;
+    /// all ranks if these may be very many pages.
+    void find_owners(std::vector<std::int32_t>& ranks) const;
+
+    /// Whether the rank owns a page within the reach of bodies; that of few pages.
+    bool has(std::int32_t rank) const;
+
+    /// Where the rank owns all within reach: how far the nearest page is that it does not own, and the nearest one of
+    /// these that sand has been in. Looks no further than the larger reach, to whole pages. 0 for both where another
+    /// rank is within reach, or very many pages are.
+    mpm::Reach clear_of_others(std::int32_t rank) const;
+
+private:
+    friend class PageOwnership;
+    using OwnedPages = std::vector<OwnedPage>;
+
+    Vicinity(const PageLattice& lattice, const std::vector<std::int32_t>& all, const Vec3<double>& place,
+             const mpm::Reach& reach, std::int32_t pages);
+
+    bool is_wide() const { return others_ == nullptr; }
+    bool is_reached(const OwnedPage& other) const;
+
+    const PageLattice*               lattice_;
+    const std::vector<std::int32_t>* all_; ///< ranks that own any page
+    Vec3<double>                     place_;
+    mpm::Reach                       reach_;    ///< m
+    double                           farthest_; ///< m, how far pages around were looked at
+    std::int32_t                     owner_ = 0;
+    const OwnedPages* others_               = nullptr; ///< pages around with another owner; null if very many pages are
+    std::size_t       owners_               = 0;       ///< number of other owners
+};
 
 /// Owner lookup for any page. A page outside the partition, above the sand or beside it, belongs to the owner of the
 /// nearest page of the partition within two pages, or else to that of the page before it by key (the first page's
@@ -32,38 +78,23 @@ public:
     std::int32_t owner_of(std::uint64_t page_key);
     std::int32_t owner_of(const Vec3<double>& place);
 
-    /// Writes the ranks that own a page within reach (m), or one that sand has been in within the reach of sand,
-    /// ascending; all ranks if these may be very many pages. The neighbourhood of the centre's page is cached, so that
-    /// later balls there cost next to nothing.
-    void find_owners_near(const Vec3<double>& centre, const mpm::Reach& reach, std::vector<std::int32_t>& ranks);
-
-    /// Whether the rank owns a page within the ball (m) of few pages.
-    bool is_near(std::int32_t rank, const Vec3<double>& centre, double radius);
-
-    /// Where the rank owns all within reach (m): how far the nearest page is that it does not own, and the nearest one
-    /// of these that sand has been in. Looks no further than `reach`, to whole pages. 0 for both where another rank is
-    /// within reach, or very many pages are. Caches the pages.
-    mpm::Reach clear_of_others(std::int32_t rank, const Vec3<double>& place, const mpm::Reach& reach);
+    /// Owners around a place. What surrounds its page is cached, so that later places there cost a lookup.
+    Vicinity around(const Vec3<double>& place, const mpm::Reach& reach);
 
 private:
-    enum class Among
+    /// A page's owner, and the pages around it that others own, the nearest first, so that most looks end soon.
+    struct Surroundings
     {
-        all,
-        with_sand
+        std::int32_t           owner;
+        std::vector<OwnedPage> others;
+        std::size_t            owners; ///< number of those of `others`
     };
-    struct OwnedPage
-    {
-        mpm::Index3  page;
-        std::int32_t owner;
-    };
-    using OwnedPages = std::vector<OwnedPage>;
 
-    std::size_t       last_up_to(std::uint64_t page_key) const;
-    bool              has_sand(std::uint64_t page_key) const;
-    std::int32_t      nearest_owner(std::uint64_t page_key) const;
-    OwnedPages        find_others(const mpm::Index3& page, std::int32_t reach, Among among);
-    const OwnedPages& others_near(std::uint64_t page_key, std::int32_t reach, Among among);
-    double            distance_to_others(const Vec3<double>& place, double radius, Among among);
+    std::size_t         last_up_to(std::uint64_t page_key) const;
+    bool                has_sand(std::uint64_t page_key) const;
+    std::int32_t        nearest_owner(std::uint64_t page_key) const;
+    Surroundings        find_surroundings(std::uint64_t page_key, std::int32_t reach);
+    const Surroundings& surroundings(std::uint64_t page_key, std::int32_t reach);
 
     PageLattice                lattice_;
     std::vector<std::uint64_t> key_;
@@ -73,8 +104,8 @@ private:
 
     std::unordered_map<std::uint64_t, std::int32_t> unseen_; ///< cached owners of pages that are not in key_
 
-    /// Cache, keyed by reach (in pages) and page: pages within that reach with another owner than the page.
-    std::map<std::pair<std::int32_t, Among>, std::unordered_map<std::uint64_t, OwnedPages>> others_;
+    /// Cache, by reach (in pages) and page.
+    std::array<std::unordered_map<std::uint64_t, Surroundings>, mpm::most_reach + 1> surroundings_;
 };
 
 } // namespace tread::decomp

@@ -102,7 +102,8 @@ std::int32_t BodyOwners::next_owner(std::size_t body, const Vec3<double>& positi
 {
     const std::int32_t own     = communicator_.rank();
     const double       near_by = std::min(slack(), bounding_radius_[body]);
-    return ownership_->is_near(own, position, near_by) ? own : ownership_->owner_of(position);
+    const auto         around  = ownership_->around(position, {near_by, 0});
+    return around.has(own) ? own : around.owner();
 }
 
 BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
@@ -121,14 +122,15 @@ BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
             if (all.size() > 1) { found.shared.add({body, next_owner(b, ball.position), all}); }
             continue;
         }
-        const mpm::Reach clear = ownership_->clear_of_others(here, ball.position, ball.reach);
+        const decomp::Vicinity around = ownership_->around(ball.position, ball.reach);
+        const mpm::Reach       clear  = around.clear_of_others(here);
         if (clear.bodies > 0)
         {
             found.inside.push_back(body);
             found.clear.push_back({ball.position, clear});
             continue;
         }
-        ownership_->find_owners_near(ball.position, ball.reach, holders);
+        around.find_owners(holders);
         if (holders.size() == 1 && holders.front() == here) { continue; }
         found.shared.add({body, next_owner(b, ball.position), holders});
     }

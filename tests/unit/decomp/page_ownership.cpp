@@ -1,6 +1,8 @@
 #include "decomp/page_ownership.hpp"
 
+#include <algorithm>
 #include <array>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -30,7 +32,7 @@ mpm::Reach bodies_within(double radius) { return {radius, 0}; }
 std::vector<std::int32_t> owners_near(PageOwnership& ownership, const Vec3<double>& centre, const mpm::Reach& reach)
 {
     std::vector<std::int32_t> ranks{7}; // what is there before does not matter
-    ownership.find_owners_near(centre, reach, ranks);
+    ownership.around(centre, reach).find_owners(ranks);
     return ranks;
 }
 
@@ -92,7 +94,7 @@ TEST(PageOwnership, KnowsHowFarAwayOthersAre)
     PageOwnership ownership = row_of_pages();
     const auto    clear     = [&](std::int32_t rank, const Vec3<double>& place, const mpm::Reach& reach)
     {
-        const mpm::Reach found = ownership.clear_of_others(rank, place, reach);
+        const mpm::Reach found = ownership.around(place, reach).clear_of_others(rank);
         return std::array{found.bodies, found.sand};
     };
     const auto expect_near = [](const std::array<double, 2>& found, double bodies, double sand)
@@ -102,11 +104,12 @@ TEST(PageOwnership, KnowsHowFarAwayOthersAre)
     };
     expect_near(clear(0, middle(1, 0, 0), {0.1, 0.9}), 0.2, 1.0); // the page of rank 1, and that of rank 2 with sand
     expect_near(clear(0, middle(0, 0, 0), {0.1, 0.1}), 0.4, 0.4); // it looks one page far
-    expect_near(clear(0, middle(0, 0, 0), {0.5, 0.1}), 0.6, 0.4); // two
-    expect_near(clear(0, middle(1, 0, 0), {0.21, 0.1}), 0, 0);    // the page of rank 1 is within reach
-    expect_near(clear(0, middle(1, 0, 0), {0.1, 1.01}), 0, 0);    // the sand of rank 2 is
-    expect_near(clear(1, middle(0, 0, 0), {0.1, 0.1}), 0, 0);     // not its page
-    expect_near(clear(0, middle(0, 0, 0), {0.1, 1e6}), 0, 0);     // too many pages to look at
+    expect_near(clear(0, middle(0, 0, 0), {0.5, 0.1}), 0.6, 0.8); // two, and no sand is there
+    expect_near(clear(0, middle(0, 0, 0), {0.1, 0.5}), 0.6, 0.8);
+    expect_near(clear(0, middle(1, 0, 0), {0.21, 0.1}), 0, 0); // the page of rank 1 is within reach
+    expect_near(clear(0, middle(1, 0, 0), {0.1, 1.01}), 0, 0); // the sand of rank 2 is
+    expect_near(clear(1, middle(0, 0, 0), {0.1, 0.1}), 0, 0);  // not its page
+    expect_near(clear(0, middle(0, 0, 0), {0.1, 1e6}), 0, 0);  // too many pages to look at
 }
 
 TEST(PageOwnership, ABallThatPassesACornerDoesNotReachThePageBehindIt)
@@ -135,10 +138,51 @@ TEST(PageOwnership, SandIsWhereItHasBeen)
 TEST(PageOwnership, ARankIsNearToItsPages)
 {
     PageOwnership ownership = row_of_pages();
-    EXPECT_TRUE(ownership.is_near(0, middle(1, 0, 0), 0));
-    EXPECT_FALSE(ownership.is_near(1, middle(1, 0, 0), 0.19));
-    EXPECT_TRUE(ownership.is_near(1, middle(1, 0, 0), 0.21));
-    EXPECT_FALSE(ownership.is_near(2, middle(1, 0, 0), 0.21));
+    const auto    has       = [&](std::int32_t rank, double radius)
+    { return ownership.around(middle(1, 0, 0), bodies_within(radius)).has(rank); };
+    EXPECT_TRUE(has(0, 0));
+    EXPECT_FALSE(has(1, 0.19));
+    EXPECT_TRUE(has(1, 0.21));
+    EXPECT_FALSE(has(2, 0.21));
+}
+
+/// Compares with a search through all pages.
+TEST(PageOwnership, NothingIsMissedAmongPagesOfManyRanks)
+{
+    std::mt19937                                random(1);
+    std::uniform_int_distribution<std::int32_t> rank(0, 4);
+    std::vector<std::uint64_t>                  keys;
+    for (std::int32_t x = 0; x < 6; ++x)
+    {
+        for (std::int32_t y = 0; y < 6; ++y) { keys.push_back(mpm::page_key({x, y, 0})); }
+    }
+    std::sort(keys.begin(), keys.end());
+    PageRanks                 ranks;
+    std::vector<std::uint8_t> sand;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+    {
+        ranks.push_back(rank(random));
+        sand.push_back(rank(random) < 2 ? 1 : 0);
+    }
+    PageOwnership                          ownership(lattice, keys, ranks, sand);
+    std::uniform_real_distribution<double> place(0.9, 1.6);
+    for (int i = 0; i < 200; ++i)
+    {
+        const Vec3<double>        at{place(random), place(random), 0.25};
+        const mpm::Reach          reach{0.05 + 0.1 * place(random), 0.3 * place(random)};
+        std::vector<std::int32_t> expected{ownership.owner_of(at)};
+        for (std::size_t page = 0; page < keys.size(); ++page)
+        {
+            const mpm::Index3  index = mpm::page_coordinates(keys[page]);
+            const Vec3<double> low   = middle(index.x, index.y, index.z) - Vec3<double>::Constant(width / 2);
+            const Vec3<double> near  = at.cwiseMax(low).cwiseMin(low + Vec3<double>::Constant(width));
+            const double       way   = (near - at).norm();
+            if (way <= reach.bodies || (sand[page] != 0 && way <= reach.sand)) { expected.push_back(ranks[page]); }
+        }
+        std::sort(expected.begin(), expected.end());
+        expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+        EXPECT_EQ(owners_near(ownership, at, reach), expected) << at.transpose();
+    }
 }
 
 TEST(PageMap, KnowsWhereSandHasBeen)
