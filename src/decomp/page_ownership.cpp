@@ -120,7 +120,7 @@ std::uint64_t PageOwnership::page_of(const Vec3<double>& place) const
 
 std::int32_t PageOwnership::owner_of(const Vec3<double>& place) { return owner_of(page_of(place)); }
 
-auto PageOwnership::find_surroundings(std::uint64_t page_key, std::int32_t reach) -> Surroundings
+Surroundings PageOwnership::find_surroundings(std::uint64_t page_key, std::int32_t reach)
 {
     const mpm::Index3         page = mpm::page_coordinates(page_key);
     Surroundings              found{owner_of(page_key), {}, 0};
@@ -142,7 +142,7 @@ auto PageOwnership::find_surroundings(std::uint64_t page_key, std::int32_t reach
     return found;
 }
 
-auto PageOwnership::surroundings(std::uint64_t page_key, std::int32_t reach) -> const Surroundings&
+const Surroundings& PageOwnership::surroundings(std::uint64_t page_key, std::int32_t reach)
 {
     const auto [at, is_new] = surroundings_[static_cast<std::size_t>(reach)].try_emplace(page_key);
     if (is_new) { at->second = find_surroundings(page_key, reach); }
@@ -151,70 +151,62 @@ auto PageOwnership::surroundings(std::uint64_t page_key, std::int32_t reach) -> 
 
 Vicinity PageOwnership::around(const Vec3<double>& place, const mpm::Reach& reach)
 {
-    const std::int32_t pages = mpm::pages_reached(lattice_, std::max(reach.bodies, reach.sand));
-    Vicinity           found(lattice_, all_, place, reach, pages);
-    if (pages > mpm::most_reach)
-    {
-        found.owner_ = owner_of(place);
-        return found;
-    }
-    const Surroundings& near = surroundings(page_of(place), pages);
-    found.owner_             = near.owner;
-    found.others_            = &near.others;
-    found.owners_            = near.owners;
-    return found;
+    const std::int32_t  pages = mpm::pages_reached(lattice_, std::max(reach.bodies, reach.sand));
+    const Surroundings* near  = pages > mpm::most_reach ? nullptr : &surroundings(page_of(place), pages);
+    return {lattice_, all_, place, reach, near, pages * width_of_page(lattice_)};
 }
 
 Vicinity::Vicinity(const PageLattice& lattice, const std::vector<std::int32_t>& all, const Vec3<double>& place,
-                   const mpm::Reach& reach, std::int32_t pages)
-    : lattice_(&lattice)
-    , all_(&all)
+                   const mpm::Reach& reach, const Surroundings* near, double farthest)
+    : lattice_(lattice)
+    , all_(all)
     , place_(place)
     , reach_(reach)
-    , farthest_(pages * width_of_page(lattice))
+    , near_(near)
+    , farthest_(farthest)
 {
 }
 
 bool Vicinity::is_reached(const OwnedPage& other) const
 {
     const double radius = other.has_sand ? std::max(reach_.bodies, reach_.sand) : reach_.bodies;
-    return reaches(*lattice_, place_, radius, other.page);
+    return reaches(lattice_, place_, radius, other.page);
 }
 
 void Vicinity::find_owners(std::vector<std::int32_t>& ranks) const
 {
-    if (is_wide())
+    if (near_ == nullptr)
     {
-        ranks = *all_;
+        ranks = all_;
         return;
     }
-    ranks.assign(1, owner_);
-    for (const OwnedPage& other : *others_)
+    ranks.assign(1, near_->owner);
+    for (const OwnedPage& other : near_->others)
     {
-        if (ranks.size() > owners_) { break; }
+        if (ranks.size() > near_->owners) { break; }
         const bool is_known = std::find(ranks.begin(), ranks.end(), other.owner) != ranks.end();
         if (!is_known && is_reached(other)) { ranks.push_back(other.owner); }
     }
     std::sort(ranks.begin(), ranks.end());
 }
 
-bool Vicinity::has(std::int32_t rank) const
+std::int32_t Vicinity::owner_before_all(std::int32_t rank) const
 {
-    return owner_ == rank ||
-           (!is_wide() &&
-            std::any_of(others_->begin(), others_->end(),
-                        [&](const OwnedPage& other)
-                        { return other.owner == rank && reaches(*lattice_, place_, reach_.bodies, other.page); }));
+    const bool is_near =
+        std::any_of(near_->others.begin(), near_->others.end(),
+                    [&](const OwnedPage& other)
+                    { return other.owner == rank && reaches(lattice_, place_, reach_.bodies, other.page); });
+    return is_near ? rank : near_->owner;
 }
 
 mpm::Reach Vicinity::clear_of_others(std::int32_t rank) const
 {
     constexpr mpm::Reach unknown{0, 0};
-    if (is_wide() || owner_ != rank) { return unknown; }
+    if (near_ == nullptr || near_->owner != rank) { return unknown; }
     double bodies = farthest_ * farthest_, sand = bodies; // squares
-    for (const OwnedPage& other : *others_)
+    for (const OwnedPage& other : near_->others)
     {
-        const double way = squared_distance_to(*lattice_, place_, other.page);
+        const double way = squared_distance_to(lattice_, place_, other.page);
         bodies           = std::min(bodies, way);
         if (other.has_sand) { sand = std::min(sand, way); }
         if (bodies <= reach_.bodies * reach_.bodies || sand <= reach_.sand * reach_.sand) { return unknown; }

@@ -23,19 +23,29 @@ struct OwnedPage
     bool         has_sand;
 };
 
-/// Owners around a place, out to `reach` (m) for bodies and for sand. Valid while the PageOwnership that it is from is.
+/// A page's owner, and the pages around it that others own, the nearest first, so that most looks end soon.
+struct Surroundings
+{
+    std::int32_t           owner;
+    std::vector<OwnedPage> others;
+    std::size_t            owners; ///< number of those of `others`
+};
+
+/// Owners around a place, out to a reach (m) for bodies and for sand. Valid while the PageOwnership that it is from is.
 class Vicinity
 {
 public:
-    /// The owner of the page of the place.
-    std::int32_t owner() const { return owner_; }
+    /// `all`: ranks that own any page; `near`: of the place's page, null if very many pages are within reach;
+    /// `farthest`: m, how far pages were looked at.
+    Vicinity(const PageLattice& lattice, const std::vector<std::int32_t>& all, const Vec3<double>& place,
+             const mpm::Reach& reach, const Surroundings* near, double farthest);
 
     /// Writes the ranks that own a page within reach, or one that sand has been in within the reach of sand, ascending;
     /// all ranks if these may be very many pages.
     void find_owners(std::vector<std::int32_t>& ranks) const;
 
-    /// Whether the rank owns a page within the reach of bodies; that of few pages.
-    bool has(std::int32_t rank) const;
+    /// The rank if it owns a page within the reach of bodies, else the owner of the place's page. Of few pages.
+    std::int32_t owner_before_all(std::int32_t rank) const;
 
     /// Where the rank owns all within reach: how far the nearest page is that it does not own, and the nearest one of
     /// these that sand has been in. Looks no further than the larger reach, to whole pages. 0 for both where another
@@ -43,23 +53,14 @@ public:
     mpm::Reach clear_of_others(std::int32_t rank) const;
 
 private:
-    friend class PageOwnership;
-    using OwnedPages = std::vector<OwnedPage>;
-
-    Vicinity(const PageLattice& lattice, const std::vector<std::int32_t>& all, const Vec3<double>& place,
-             const mpm::Reach& reach, std::int32_t pages);
-
-    bool is_wide() const { return others_ == nullptr; }
     bool is_reached(const OwnedPage& other) const;
 
-    const PageLattice*               lattice_;
-    const std::vector<std::int32_t>* all_; ///< ranks that own any page
+    const PageLattice&               lattice_;
+    const std::vector<std::int32_t>& all_;
     Vec3<double>                     place_;
-    mpm::Reach                       reach_;    ///< m
-    double                           farthest_; ///< m, how far pages around were looked at
-    std::int32_t                     owner_ = 0;
-    const OwnedPages* others_               = nullptr; ///< pages around with another owner; null if very many pages are
-    std::size_t       owners_               = 0;       ///< number of other owners
+    mpm::Reach                       reach_;
+    const Surroundings*              near_;
+    double                           farthest_;
 };
 
 /// Owner lookup for any page. A page outside the partition, above the sand or beside it, belongs to the owner of the
@@ -82,14 +83,6 @@ public:
     Vicinity around(const Vec3<double>& place, const mpm::Reach& reach);
 
 private:
-    /// A page's owner, and the pages around it that others own, the nearest first, so that most looks end soon.
-    struct Surroundings
-    {
-        std::int32_t           owner;
-        std::vector<OwnedPage> others;
-        std::size_t            owners; ///< number of those of `others`
-    };
-
     std::size_t         last_up_to(std::uint64_t page_key) const;
     bool                has_sand(std::uint64_t page_key) const;
     std::int32_t        nearest_owner(std::uint64_t page_key) const;

@@ -102,8 +102,7 @@ std::int32_t BodyOwners::next_owner(std::size_t body, const Vec3<double>& positi
 {
     const std::int32_t own     = communicator_.rank();
     const double       near_by = std::min(slack(), bounding_radius_[body]);
-    const auto         around  = ownership_->around(position, {near_by, 0});
-    return around.has(own) ? own : around.owner();
+    return ownership_->around(position, {near_by, 0}).owner_before_all(own);
 }
 
 BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)

@@ -139,7 +139,7 @@ TEST(PageOwnership, ARankIsNearToItsPages)
 {
     PageOwnership ownership = row_of_pages();
     const auto    has       = [&](std::int32_t rank, double radius)
-    { return ownership.around(middle(1, 0, 0), bodies_within(radius)).has(rank); };
+    { return ownership.around(middle(1, 0, 0), bodies_within(radius)).owner_before_all(rank) == rank; };
     EXPECT_TRUE(has(0, 0));
     EXPECT_FALSE(has(1, 0.19));
     EXPECT_TRUE(has(1, 0.21));
