@@ -156,6 +156,7 @@ template<class Exec>
 void Balance<Exec>::repartition_anew(const PageLoads& own, std::int64_t step)
 {
     const AllPages pages = gather_pages(decomposition_.communicator, own);
+    if (pages.graph.key.empty()) { return; }
     assign(pages.graph.key, new_owners(decomposition_.communicator, pages), step);
 }
 

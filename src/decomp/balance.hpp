@@ -62,8 +62,8 @@ public:
     /// migrate before the next query of an owner. `own`: loads of this rank.
     bool repartition(const PageLoads& own, std::int64_t step);
 
-    /// The same where the present partition was made for other loads than those of note(): whether it pays is not
-    /// asked.
+    /// Assigns new owners to all pages with load, whether that pays or not: for loads that the present partition was
+    /// not made for. Nothing changes where nobody has load.
     void repartition_anew(const PageLoads& own, std::int64_t step);
 
     /// Records this rank's load and the number of points that migrated, on all ranks; call after points or bodies may

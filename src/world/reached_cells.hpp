@@ -9,8 +9,8 @@
 namespace tread::world
 {
 
-/// Cells of a lattice that bodies reach, one bit each. Of many points most are near no body: this says so at a tenth of
-/// the cost of a search in a BodyGrid. Thread-safe.
+/// Cells of a lattice that bodies reach, one bit each. Of many points most are near no body: this says so by one lookup
+/// instead of a search in a BodyGrid. Thread-safe.
 class ReachedCells
 {
 public:

@@ -98,6 +98,17 @@ TEST(Balance, AnewIsNotAskedWhetherItPays)
     EXPECT_LT(imbalance_of(loads), 1.15);
 }
 
+TEST(Balance, AnewLeavesPagesWithoutLoadAsTheyAre)
+{
+    Counters           counters;
+    Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
+    decomposition.owners.assign({1, 2}, {0, 0});
+    Balance<Cpu> balance(decomposition, 1.15);
+    balance.repartition_anew({}, 0);
+    EXPECT_EQ(decomposition.owners.keys().size(), 2U);
+    EXPECT_EQ(balance.row().repartitions, 0);
+}
+
 TEST(Balance, WaitsTwiceAsLongWhereItWasNotWorthIt)
 {
     if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
