@@ -179,7 +179,7 @@ void Simulation<Exec, Real>::repartition_pages()
     if (balance_->repartition(page_loads()) && sand_) { sand_->follow_owners(); }
 }
 
-/// The present owners of pages were chosen for the places of the scene's start.
+/// Serves a state from another number of ranks: the present owners of pages were chosen for the scene's start.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::repartition_loaded()
 {
