@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/files.hpp"
-#include "io/h5.hpp"
+#include "io/shared_file.hpp"
 
 namespace tread::io
 {
@@ -47,20 +47,54 @@ std::string points_name(std::size_t number) { return fmt::format("points_{:04}.h
 
 std::string temporary(const std::string& path) { return path + ".tmp"; }
 
+template<class... T>
+std::int64_t bytes_of_all(const std::vector<T>&... values)
+{
+    return (static_cast<std::int64_t>(values.size() * sizeof(T)) + ...);
+}
+
+std::int64_t bytes_of(const PointFields& points)
+{
+    constexpr std::int64_t of_cell = 8 + 8 + 1 + 4;
+    return bytes_of_all(points.position, points.displacement, points.velocity, points.stress, points.plastic_shear,
+                        points.plastic_rate, points.material, points.id) +
+           of_cell * static_cast<std::int64_t>(points.position.size() / 3);
+}
+
+std::int64_t bytes_of(const BodyFields& bodies)
+{
+    return bytes_of_all(bodies.position, bodies.orientation, bodies.velocity, bodies.angular_velocity, bodies.scale,
+                        bodies.shape, bodies.material);
+}
+
 } // namespace
 
-void write_bodies(const std::string& path, double time, const BodyFields& bodies, const Provenance& provenance)
+BodyFields gathered(const Communicator& communicator, const BodyFields& fields)
 {
-    h5::File file = h5::File::create(path);
-    write_provenance(file, provenance);
-    h5::write_attribute(file, "/", "time", time);
-    write_with_unit(file, "/position", bodies.position, 3, "m");
-    write_with_unit(file, "/orientation", bodies.orientation, 4, "1");
-    write_with_unit(file, "/velocity", bodies.velocity, 3, "m/s");
-    write_with_unit(file, "/angular_velocity", bodies.angular_velocity, 3, "rad/s");
-    write_with_unit(file, "/scale", bodies.scale, 1, "1");
-    write_with_unit(file, "/shape", bodies.shape, 1, "1");
-    write_with_unit(file, "/material", bodies.material, 1, "1");
+    return {communicator.gather(fields.position),         communicator.gather(fields.orientation),
+            communicator.gather(fields.velocity),         communicator.gather(fields.angular_velocity),
+            communicator.gather(fields.scale),            communicator.gather(fields.shape),
+            communicator.gather(fields.material)};
+}
+
+void write_bodies(const Communicator& communicator, const std::string& path, double time, const BodyFields& bodies,
+                  const Provenance& provenance)
+{
+    const std::string written = communicator.broadcast(utc_now()); // all ranks must write the same
+    SharedFile        file(communicator, path);
+    file.together(
+        [&](const h5::File& h5)
+        {
+            write_provenance(h5, provenance, written);
+            h5::write_attribute(h5, "/", "time", time);
+        });
+    file.write_with_unit("/position", bodies.position, 3, "m");
+    file.write_with_unit("/orientation", bodies.orientation, 4, "1");
+    file.write_with_unit("/velocity", bodies.velocity, 3, "m/s");
+    file.write_with_unit("/angular_velocity", bodies.angular_velocity, 3, "rad/s");
+    file.write_with_unit("/scale", bodies.scale, 1, "1");
+    file.write_with_unit("/shape", bodies.shape, 1, "1");
+    file.write_with_unit("/material", bodies.material, 1, "1");
     file.close();
 }
 
@@ -125,30 +159,24 @@ void SnapshotWriter::write(double time, const PointFields& points, const BodyFie
     if (communicator_->maximum(static_cast<std::int64_t>(points.position.size())) > 0)
     {
         const std::string path = directory_ + "/" + points_name(number);
-        require_space_of(path, points);
+        require_space_of(path, bytes_of(points));
         whole_or_not(path, [&] { write_points(*communicator_, temporary(path), time, points, provenance_); });
         on_root(*communicator_, [&] { write_series(); });
     }
     if (communicator_->maximum(static_cast<std::int64_t>(bodies.position.size())) > 0)
     {
         const std::string path = fmt::format("{}/bodies_{:04}.h5", directory_, number);
-        whole_or_not(path, [&]
-                     { on_root(*communicator_, [&] { write_bodies(temporary(path), time, bodies, provenance_); }); });
+        require_space_of(path, bytes_of(bodies));
+        whole_or_not(path, [&] { write_bodies(*communicator_, temporary(path), time, bodies, provenance_); });
     }
 }
 
 /// Needed with several ranks: MPI's collective calls hang if the disk of one rank is full.
-void SnapshotWriter::require_space_of(const std::string& path, const PointFields& points) const
+void SnapshotWriter::require_space_of(const std::string& path, std::int64_t own) const
 {
     if (communicator_->size() == 1) { return; }
-    constexpr std::int64_t of_cell = 8 + 8 + 1 + 4, of_file = 100000;
-    const auto             bytes_of = [](const auto& values)
-    { return static_cast<std::int64_t>(values.size() * sizeof(values[0])); };
-    const std::int64_t own = bytes_of(points.position) + bytes_of(points.displacement) + bytes_of(points.velocity) +
-                             bytes_of(points.stress) + bytes_of(points.plastic_shear) + bytes_of(points.plastic_rate) +
-                             bytes_of(points.material) + bytes_of(points.id) +
-                             of_cell * static_cast<std::int64_t>(points.position.size() / 3);
-    const std::int64_t all = communicator_->sum(own) + of_file;
+    constexpr std::int64_t of_file = 100000;
+    const std::int64_t     all     = communicator_->sum(own) + of_file;
     on_root(*communicator_, [&] { require_space(path, all); });
 }
 

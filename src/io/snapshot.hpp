@@ -27,7 +27,7 @@ struct PointFields
     std::vector<float>         volume_ratio;  ///< [n] present over initial volume; not in snapshots
 };
 
-/// Rigid bodies, row-major host arrays of n bodies.
+/// Rigid bodies, row-major host arrays of n bodies: in a run on several ranks this rank's block of them (BodyBlocks).
 struct BodyFields
 {
     std::vector<double>       position;         ///< [n][3] m, world, centre of mass
@@ -38,6 +38,9 @@ struct BodyFields
     std::vector<std::int32_t> shape;            ///< [n] index in shapes.h5
     std::vector<std::int32_t> material;         ///< [n] number of the [[material]] table, from 0
 };
+
+/// The fields of all ranks, one after the other, on every rank. Collective.
+BodyFields gathered(const Communicator& communicator, const BodyFields& fields);
 
 /// Surface of a shape at scale 1 in the body frame, to draw bodies.
 struct NamedMesh
@@ -64,12 +67,12 @@ public:
     void write_shapes(const std::vector<NamedMesh>& shapes) const;
 
     /// Writes the snapshot of the next number: points_0007.hdf and points.hdf.series if any rank has points,
-    /// bodies_0007.h5 if there are bodies. `time` in s. Bodies are those of rank 0.
+    /// bodies_0007.h5 if there are bodies. `time` in s.
     void write(double time, const PointFields& points, const BodyFields& bodies);
 
 private:
     void write_series() const;
-    void require_space_of(const std::string& path, const PointFields& points) const;
+    void require_space_of(const std::string& path, std::int64_t own) const;
     void whole_or_not(const std::string& path, const std::function<void()>& work) const;
 
     const Communicator* communicator_;
@@ -86,7 +89,9 @@ private:
 void write_points(const Communicator& communicator, const std::string& path, double time, const PointFields& points,
                   const Provenance& provenance = {});
 
-/// Writes an HDF5 file with the arrays of BodyFields, `units` on each, `time` on the root. This process alone.
-void write_bodies(const std::string& path, double time, const BodyFields& bodies, const Provenance& provenance = {});
+/// Writes an HDF5 file with the arrays of BodyFields, ranks one after the other, `units` on each, `time` on the root.
+/// Collective.
+void write_bodies(const Communicator& communicator, const std::string& path, double time, const BodyFields& bodies,
+                  const Provenance& provenance = {});
 
 } // namespace tread::io

@@ -354,15 +354,8 @@ std::vector<double> Simulation<Exec, Real>::surface_heights(const world::ColumnL
 {
     world::TerrainBins bins(lattice);
     if (sand_) { sand_->add_to(bins); }
+    if (rigid_) { rigid_->add_rocks(bins); }
     if (decomposition_ != nullptr) { bins.add_ranks(decomposition_->communicator); }
-    if (plan_.rocks)
-    {
-        const std::vector<double> place = body_fields().position;
-        for (auto b = static_cast<std::size_t>(world_.bodies.named); b < world_.bodies.size(); ++b)
-        {
-            bins.add_sphere(Vec3<double>(place.data() + 3 * b), world_.bodies.radius[b]);
-        }
-    }
     return bins.surface();
 }
 

@@ -101,6 +101,14 @@ public:
         else { write(name, communicator_.rank() == 0 ? array.to_host() : std::vector<T>{}); }
     }
 
+    /// Transfers values of which each rank writes a part, one after the other; all ranks load all.
+    template<class T, class Bound>
+    void parts(const std::string& name, std::vector<T>& values, const Bound& accepted)
+    {
+        if (loads()) { values = all_rows<T>(name, accepted); }
+        else { write(name, values); }
+    }
+
     /// Transfers values of this rank. Loads its own, or all ranks' where the state is not exact.
     template<class T, class Bound>
     void own_or_all(const std::string& name, std::vector<T>& values, const Bound& accepted)

@@ -187,7 +187,7 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps, double diameter, do
         run.advance();
         if (::testing::Test::HasFatalFailure()) { return; }
     }
-    const io::BodyFields one = run.alone.simulation().body_fields(), all = run.together.simulation().body_fields();
+    const io::BodyFields one = run.alone.simulation().body_fields(), all = run.bodies_together();
     const double         places = test::difference(one.position, all.position, diameter),
                  speeds         = test::difference(one.velocity, all.velocity, 1.0),
                  turns          = test::difference(one.orientation, all.orientation, 1.0);
@@ -214,9 +214,9 @@ TYPED_TEST(BodiesOfRanks, AHeapOfRocksMigrates)
 {
     test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(1000, ball())), heap_size,
                                     heap_slabs(this->ranks()));
-    const auto                  before = run.together.simulation().body_fields().position;
+    const auto                  before = run.bodies_together().position;
     expect_as_alone(run, 200, 0.01, 1e-8);
-    const int moved = migrated(run, before, run.together.simulation().body_fields().position);
+    const int moved = migrated(run, before, run.bodies_together().position);
     std::printf("%d of 1000 rocks changed their rank\n", moved);
     if (this->ranks() > 1) { EXPECT_GT(moved, 50); }
 }
@@ -236,7 +236,7 @@ TYPED_TEST(BodiesOfRanks, TwoRunsGiveTheSameBits)
         test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(150, clast(162))), heap_size,
                                         heap_slabs(this->ranks()));
         for (int step = 0; step < 100; ++step) { run.together.advance(); }
-        const io::BodyFields now = run.together.simulation().body_fields();
+        const io::BodyFields now = run.bodies_together();
         if (pass > 0)
         {
             EXPECT_EQ(now.position, last.position);

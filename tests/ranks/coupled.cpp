@@ -43,7 +43,7 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps)
         run.alone.simulation().census(); // as for a row of the time series: points may change ranks there, too
         run.together.simulation().census();
     }
-    const io::BodyFields one = run.alone.simulation().body_fields(), all = run.together.simulation().body_fields();
+    const io::BodyFields one = run.alone.simulation().body_fields(), all = run.bodies_together();
     const double         places = test::difference(one.position, all.position, 0.1),
                  speeds         = test::difference(one.velocity, all.velocity, 1.0);
     std::printf("after %d steps: places differ by %.3g, velocities by %.3g m/s; forces on named bodies up to %.4g N "
@@ -157,7 +157,7 @@ TYPED_TEST(CoupledRanks, AWheelCeasesToTouchSandAndRocks)
     { return experiment.simulation().ledger().energy(experiment.simulation().census()); };
     const solver::EnergyRow of_one = energy(run.alone), of_all = energy(run.together);
     const double            places = test::difference(run.alone.simulation().body_fields().position,
-                                                      run.together.simulation().body_fields().position, 0.1);
+                                                      run.bodies_together().position, 0.1);
     std::printf("friction %.12g and %.12g J, coupling error %.3g and %.3g J, places differ by %.3g\n", of_one.friction,
                 of_all.friction, of_one.coupling, of_all.coupling, places);
     EXPECT_LT(places, bound);

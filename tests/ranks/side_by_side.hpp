@@ -114,6 +114,9 @@ public:
         ASSERT_NEAR(one.dt, all.dt, 1e-9 * one.dt); // by default dt follows the state, which differs by rounding
     }
 
+    /// Bodies of the run on all ranks, on every rank. Collective.
+    io::BodyFields bodies_together() { return io::gathered(world(), together.simulation().body_fields()); }
+
     /// Owning rank of a position.
     std::int32_t owner_of(const Vec3<double>& place) const
     {

@@ -90,7 +90,7 @@ protected:
         EXPECT_GT(most, points / 3);
         EXPECT_GT(woken, 0);
         return test::difference(run.alone.simulation().body_fields().position,
-                                run.together.simulation().body_fields().position, 1.0);
+                                run.bodies_together().position, 1.0);
     }
 
     /// Mass, energy and momentum agree.

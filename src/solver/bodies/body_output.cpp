@@ -35,6 +35,37 @@ double depth_below_centre(const shape::ShapeTemplate& form, const Quat& orientat
     return deepest;
 }
 
+struct NamedMotion
+{
+    Vec3<double> position; ///< m
+    Quat         orientation;
+    Vec3<double> velocity; ///< m/s
+    Vec3<double> spin;     ///< rad/s
+};
+
+/// Motions of the named bodies, on every rank those that their owners know. Collective.
+template<class Exec>
+std::vector<NamedMotion> named_motions(const BodyState<Exec>& state)
+{
+    const NamedMotion        nothing{Vec3<double>::Zero(), Quat(0, 0, 0, 0), Vec3<double>::Zero(), Vec3<double>::Zero()};
+    std::vector<NamedMotion> motions(static_cast<std::size_t>(state.named()), nothing);
+    const auto               read_rows = [&](const auto& array, auto NamedMotion::* field)
+    {
+        std::vector<std::decay_t<decltype(motions[0].*field)>> values(motions.size());
+        copy_to_host(state.exec, values.data(), array.data(), values.size() * sizeof(values[0]));
+        for (std::size_t b = 0; b < motions.size(); ++b)
+        {
+            if (state.owns(static_cast<std::int64_t>(b))) { motions[b].*field = values[b]; }
+        }
+    };
+    read_rows(state.bodies.position, &NamedMotion::position);
+    read_rows(state.bodies.orientation, &NamedMotion::orientation);
+    read_rows(state.bodies.velocity, &NamedMotion::velocity);
+    read_rows(state.bodies.angular_velocity, &NamedMotion::spin);
+    sum_over_ranks(state.communicator(), motions.data(), motions.size());
+    return motions;
+}
+
 } // namespace
 
 template<class Exec>
@@ -50,43 +81,51 @@ RigidCensus body_census(BodyState<Exec>& state, const dem::BodyTotals<Exec>& tot
 template<class Exec>
 std::vector<BodyRow> named_rows(BodyState<Exec>& state, const NamedMeans<Exec>& means)
 {
-    state.collect();
-    std::vector<BodyRow>            found;
-    const world::World&             world           = state.world;
-    const std::vector<Quat>         orientation     = state.bodies.orientation.to_host();
-    const std::vector<Vec3<double>> position        = state.bodies.position.to_host(),
-                                    velocity        = state.bodies.velocity.to_host(),
-                                    spin            = state.bodies.angular_velocity.to_host();
+    std::vector<BodyRow>                   found;
+    const world::World&                    world    = state.world;
+    const std::vector<NamedMotion>         motions  = named_motions(state);
     const std::vector<dem::ContactImpulse> impulses = summed_impulses(state, means);
     for (std::size_t b = 0; b < impulses.size(); ++b)
     {
+        const auto& [position, orientation, velocity, spin] = motions[b];
         const auto&        form = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
         const double       over = means.time > 0 ? 1 / means.time : 0;
-        const Vec3<double> axle = orientation[b] * Vec3<double>::UnitY();
-        const double       drop = world.bodies.scale[b] * depth_below_centre(form, orientation[b]);
-        found.push_back({position[b], velocity[b], spin[b], over * impulses[b].linear, over * impulses[b].angular, axle,
-                         position[b][2] - drop});
-        found.back().orientation = orientation[b];
+        const Vec3<double> axle = orientation * Vec3<double>::UnitY();
+        const double       drop = world.bodies.scale[b] * depth_below_centre(form, orientation);
+        found.push_back({position, velocity, spin, over * impulses[b].linear, over * impulses[b].angular, axle,
+                         position[2] - drop});
+        found.back().orientation = orientation;
     }
     return found;
 }
 
 template<class Exec>
-io::BodyFields body_fields(BodyState<Exec>& state)
+io::BodyFields body_fields(const BodyState<Exec>& state)
 {
-    state.collect();
-    io::BodyFields fields;
-    fields.position = rows(state.bodies.position.to_host());
-    for (const Quat& q : state.bodies.orientation.to_host())
+    const BodyBlocks         order  = state.blocks();
+    const dem::Bodies<Exec>& bodies = state.bodies;
+    io::BodyFields           fields;
+    fields.position = rows(order.rows(bodies.position.to_host()));
+    for (const Quat& q : order.rows(bodies.orientation.to_host()))
     {
         for (const double value : {q.w(), q.x(), q.y(), q.z()}) { fields.orientation.push_back(value); }
     }
-    fields.velocity         = rows(state.bodies.velocity.to_host());
-    fields.angular_velocity = rows(state.bodies.angular_velocity.to_host());
-    fields.scale            = state.bodies.scale.to_host();
-    fields.shape            = state.bodies.shape.to_host();
-    fields.material         = state.bodies.material.to_host();
+    fields.velocity         = rows(order.rows(bodies.velocity.to_host()));
+    fields.angular_velocity = rows(order.rows(bodies.angular_velocity.to_host()));
+    fields.scale            = order.rows(bodies.scale.to_host());
+    fields.shape            = order.rows(bodies.shape.to_host());
+    fields.material         = order.rows(bodies.material.to_host());
     return fields;
+}
+
+template<class Exec>
+void add_rocks(const BodyState<Exec>& state, world::TerrainBins& bins)
+{
+    const std::vector<Vec3<double>> position = state.bodies.position.to_host();
+    for (auto b = static_cast<std::size_t>(state.named()); b < position.size(); ++b)
+    {
+        if (state.owns(static_cast<std::int64_t>(b))) { bins.add_sphere(position[b], state.world.bodies.radius[b]); }
+    }
 }
 
 template<class Exec>
@@ -101,7 +140,8 @@ Vec3<double> body_place(const BodyState<Exec>& state, std::size_t body)
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template RigidCensus          body_census(BodyState<Exec>&, const dem::BodyTotals<Exec>&);                         \
     template std::vector<BodyRow> named_rows(BodyState<Exec>&, const NamedMeans<Exec>&);                               \
-    template io::BodyFields       body_fields(BodyState<Exec>&);                                                       \
+    template io::BodyFields       body_fields(const BodyState<Exec>&);                                                       \
+    template void                 add_rocks(const BodyState<Exec>&, world::TerrainBins&);                              \
     template Vec3<double>         body_place(const BodyState<Exec>&, std::size_t)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

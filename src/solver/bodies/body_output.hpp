@@ -8,6 +8,7 @@
 #include "solver/bodies/body_state.hpp"
 #include "solver/bodies/named_means.hpp"
 #include "solver/ledger/ledger.hpp"
+#include "world/terrain_bins.hpp"
 
 // Output of the bodies: stores for the ledger, rows for the recorder, fields for snapshots. Collective.
 namespace tread::solver
@@ -21,9 +22,13 @@ RigidCensus body_census(BodyState<Exec>& state, const dem::BodyTotals<Exec>& tot
 template<class Exec>
 std::vector<BodyRow> named_rows(BodyState<Exec>& state, const NamedMeans<Exec>& means);
 
-/// Fields of all bodies.
+/// Fields of this rank's block of the bodies (BodyBlocks).
 template<class Exec>
-io::BodyFields body_fields(BodyState<Exec>& state);
+io::BodyFields body_fields(const BodyState<Exec>& state);
+
+/// Adds the rocks that this rank owns to the bins. Not collective.
+template<class Exec>
+void add_rocks(const BodyState<Exec>& state, world::TerrainBins& bins);
 
 /// m, centre of a named body.
 template<class Exec>

@@ -163,14 +163,20 @@ std::string BodyState<Exec>::name(std::int64_t body) const
 template<class Exec>
 void BodyState<Exec>::transfer(StateFile& file)
 {
-    if (!file.loads()) { collect(); }
+    const BodyBlocks order = file.loads() ? BodyBlocks() : blocks();
     bodies.for_each_field(
         [&](std::string_view field, auto& array)
         {
-            auto present = array.to_host();
-            if (!file.loads()) { present.clear(); }
-            file.common(fmt::format("bodies/{}", field), array,
-                        accepted_field(field, std::move(present), world.bodies));
+            const std::string name     = fmt::format("bodies/{}", field);
+            auto              rows     = array.to_host();
+            const auto        accepted = accepted_field(field, file.loads() ? rows : decltype(rows){}, world.bodies);
+            if (field == "weight") { file.common(name, rows, accepted); } // of named bodies, which all ranks know
+            else
+            {
+                if (!file.loads()) { rows = order.rows(std::move(rows)); }
+                file.parts(name, rows, accepted);
+            }
+            if (file.loads()) { array.assign(rows); }
         });
 }
 

@@ -46,11 +46,8 @@ struct BodyState
     /// Null on one rank.
     const Communicator* communicator() const { return ranks ? &ranks->communicator() : nullptr; }
 
-    /// Gathers the state of all bodies on every rank; valid until they move. Collective.
-    void collect()
-    {
-        if (ranks) { ranks->collect(bodies); }
-    }
+    /// Order of the bodies in files; valid until they change owners. Collective.
+    BodyBlocks blocks() const { return ranks ? ranks->blocks() : BodyBlocks(); }
 
     /// Saves or loads the bodies, but neither their pairs nor their owners.
     void transfer(StateFile& file);

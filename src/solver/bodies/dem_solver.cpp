@@ -8,7 +8,6 @@
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "kernels/dem/motion/substeps.hpp"
 #include "solver/bodies/body_checks.hpp"
-#include "solver/bodies/body_output.hpp"
 #include "solver/bodies/contact_records.hpp"
 #include "solver/bodies/motion_bounds.hpp"
 #include "solver/ranks/over_ranks.hpp"
@@ -255,7 +254,7 @@ void DemSolver<Exec>::begin_mean()
 }
 
 template<class Exec>
-io::BodyFields DemSolver<Exec>::fields()
+io::BodyFields DemSolver<Exec>::fields() const
 {
     return body_fields(state_);
 }

@@ -10,6 +10,7 @@
 #include "solver/bodies/body_command.hpp"
 #include "solver/bodies/body_commands.hpp"
 #include "solver/bodies/body_joints.hpp"
+#include "solver/bodies/body_output.hpp"
 #include "solver/bodies/body_reports.hpp"
 #include "solver/bodies/body_row.hpp"
 #include "solver/bodies/body_sleep.hpp"
@@ -189,7 +190,8 @@ public:
     std::vector<BodyRow>  named_bodies();
     std::vector<JointRow> joints() const;
     void                  begin_mean();
-    io::BodyFields        fields();
+    io::BodyFields        fields() const;
+    void                  add_rocks(world::TerrainBins& bins) const { solver::add_rocks(state_, bins); }
 
     /// Records of the pairs that touched in the last step.
     std::vector<world::ContactRecord> contacts() const;

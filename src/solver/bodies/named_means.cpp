@@ -49,7 +49,7 @@ template<class Exec>
 std::vector<dem::ContactImpulse> summed_impulses(const BodyState<Exec>& state, const NamedMeans<Exec>& means)
 {
     std::vector<dem::ContactImpulse> sums = means.impulses.to_host();
-    for (dem::ContactImpulse& impulse : sums) { sum_over_ranks(state.communicator(), impulse); }
+    sum_over_ranks(state.communicator(), sums.data(), sums.size());
     return sums;
 }
 

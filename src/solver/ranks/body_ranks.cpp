@@ -151,21 +151,6 @@ void BodyRanks<Exec>::send_states(const RankLists& leaving, const RankLists& arr
 }
 
 template<class Exec>
-void BodyRanks<Exec>::collect(dem::Bodies<Exec>& bodies)
-{
-    const std::vector<std::int32_t> own      = owners_.owned();
-    RankLists                       arriving = decomp::gather_values(communicator(), own);
-    RankLists                       leaving(arriving.size(), own);
-    const auto                      rank = static_cast<std::size_t>(communicator().rank());
-    arriving[rank].clear();
-    leaving[rank].clear();
-    const dem::BodiesView view = bodies.view();
-    send_states(leaving, arriving,
-                decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
-                                view.torque, view.stiffness, view.locked));
-}
-
-template<class Exec>
 double BodyRanks<Exec>::load() const
 {
     return body_load * owners_.count();

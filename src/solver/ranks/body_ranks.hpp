@@ -9,6 +9,7 @@
 #include "decomp/exchange.hpp"
 #include "kernels/contact/borders.hpp"
 #include "kernels/dem/bodies.hpp"
+#include "solver/ranks/body_blocks.hpp"
 #include "solver/ranks/body_owners.hpp"
 #include "solver/ranks/record_migration.hpp"
 #include "solver/ranks/shared_bodies.hpp"
@@ -41,8 +42,8 @@ public:
     /// before.
     void transfer(StateFile& file, dem::Bodies<Exec>& bodies);
 
-    /// Gathers the state of all bodies on every rank; valid until they move.
-    void collect(dem::Bodies<Exec>& bodies);
+    /// Order of the bodies in files; valid until they change owners.
+    BodyBlocks blocks() const { return {communicator(), owners_.owned(), owners_.roles().size()}; }
 
     // Not collective.
     /// Predicted work of this rank's bodies, in points, in total and by page.

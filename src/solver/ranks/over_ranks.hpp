@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "base/communicator.hpp"
 #include "decomp/combine.hpp"
 
@@ -14,13 +16,19 @@ double largest_over_ranks(const Communicator* communicator, double value);
 /// Global minimum; zeros are ignored, and 0 means that there is no other value.
 double smallest_over_ranks(const Communicator* communicator, double value);
 
-/// Sums a struct of doubles, in rank order.
+/// Sums structs of doubles, in rank order.
 template<class Row>
-void sum_over_ranks(const Communicator* communicator, Row& row)
+void sum_over_ranks(const Communicator* communicator, Row* rows, std::size_t count)
 {
     static_assert(sizeof(Row) % sizeof(double) == 0);
     if (communicator == nullptr) { return; }
-    decomp::combine(*communicator, reinterpret_cast<double*>(&row), sizeof(Row) / sizeof(double), 0);
+    const auto values = static_cast<int>(count * sizeof(Row) / sizeof(double));
+    decomp::combine(*communicator, reinterpret_cast<double*>(rows), values, 0);
+}
+template<class Row>
+void sum_over_ranks(const Communicator* communicator, Row& row)
+{
+    sum_over_ranks(communicator, &row, 1);
 }
 
 /// Runs checks of this rank's data; an error on one rank is thrown on all.
