@@ -38,7 +38,8 @@ struct PackWord
     {
         const std::int64_t k    = i / columns.words;
         const Spot         from = spot_of(columns, index[k], static_cast<std::int32_t>(i - k * columns.words));
-        to[i] = from.bytes == 1 ? static_cast<std::uint32_t>(*from.at) : *reinterpret_cast<const Word*>(from.at);
+        *reinterpret_cast<Word*>(to + i) =
+            from.bytes == 1 ? static_cast<std::uint32_t>(*from.at) : *reinterpret_cast<const Word*>(from.at);
     }
 };
 

@@ -22,6 +22,7 @@ struct BorderReach
 struct BorderBody
 {
     Vec3<double> position; ///< m, of the body
+    double       radius;   ///< m, of its bounding sphere
     mpm::Reach   reach;    ///< m
 };
 
@@ -36,30 +37,26 @@ template<class Exec>
 struct Borders
 {
     explicit Borders(const Exec& exec)
-        : bounding_radius(exec, "bounding radii of bodies")
-        , clear(exec, "balls inside a rank")
+        : clear(exec, "balls inside a rank")
         , body(exec, "bodies at borders")
         , ball(exec, "balls of bodies at borders")
         , at(exec, "bodies to set")
-        , role(exec, "roles to set")
         , to_clear(exec, "balls to set")
     {
     }
 
-    Array<Exec, double>       bounding_radius; ///< m, of each body
-    Array<Exec, Clearance>    clear;           ///< around each body when it was looked at last
-    Array<Exec, std::int32_t> body;            ///< those found last, ascending
-    Array<Exec, BorderBody>   ball;            ///< of each of them
+    Array<Exec, Clearance>    clear; ///< around each body when it was looked at last
+    Array<Exec, std::int32_t> body;  ///< those found last, ascending
+    Array<Exec, BorderBody>   ball;  ///< of each of them
 
     // Scratch.
     Array<Exec, std::int32_t> at;
-    Array<Exec, std::int32_t> role;
     Array<Exec, Clearance>    to_clear;
 };
 
-/// Begins with `bounding_radius` (m) of each body, of which nothing is known.
+/// Begins with so many bodies, of which nothing is known.
 template<class Exec>
-void begin_borders(const Exec&, Borders<Exec>& borders, const std::vector<double>& bounding_radius);
+void begin_borders(const Exec&, Borders<Exec>& borders, std::int64_t bodies);
 
 /// Forgets what is this rank's alone: owners of pages have changed.
 template<class Exec>
@@ -71,27 +68,22 @@ void keep_clearances(const Exec&, Borders<Exec>& borders, const std::vector<std:
                      const std::vector<Clearance>& clear);
 
 /// Largest own reach, bounding radius plus allowed displacement, m, of this rank's bodies: of all, and of the small
-/// ones. Waits.
+/// ones. `bounding_radius`: m, of each body, here and below. Waits.
 template<class Exec>
-std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>& borders, dem::Pairs<Exec>& pairs,
+std::array<double, 2> largest_reaches(const Exec&, const double* bounding_radius, dem::Pairs<Exec>& pairs,
                                       const dem::BodiesView& bodies);
 
 /// Lists this rank's bodies that are not known to reach this rank's pages alone. Waits for their number.
 template<class Exec>
-void list_borders(const Exec&, Borders<Exec>& borders, dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies,
-                  const BorderReach& reach);
-
-/// Sets the roles (dem::BodyRole) of these bodies, each of which occurs once.
-template<class Exec>
-void set_roles(const Exec&, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
-               const std::vector<std::int32_t>& role, dem::Bodies<Exec>& bodies);
+void list_borders(const Exec&, Borders<Exec>& borders, const double* bounding_radius, dem::Pairs<Exec>& pairs,
+                  const dem::BodiesView& bodies, const BorderReach& reach);
 
 /// Sets place[body[i]] to i.
 template<class Exec>
 void write_places(const Exec&, const Array<Exec, std::int32_t>& body, Array<Exec, std::int32_t>& place);
 
-/// Sets place[body[i]] to -1.
+/// Sets all places to -1.
 template<class Exec>
-void erase_places(const Exec&, const Array<Exec, std::int32_t>& body, Array<Exec, std::int32_t>& place);
+void forget_places(const Exec&, Array<Exec, std::int32_t>& place);
 
 } // namespace tread::contact

@@ -46,14 +46,6 @@ struct WritePlace
     TREAD_HD void operator()(std::int64_t i) const { place[body[i]] = static_cast<std::int32_t>(i); }
 };
 
-struct ErasePlace
-{
-    const std::int32_t* body;
-    std::int32_t*       place;
-
-    TREAD_HD void operator()(std::int64_t i) const { place[body[i]] = -1; }
-};
-
 /// Own reaches of a rank's bodies; those of others are 0.
 struct OwnReach
 {
@@ -86,7 +78,7 @@ struct Ball
     TREAD_HD BorderBody operator()(std::int64_t b) const
     {
         const double met = own.is_large[b] != 0 ? reach.met_by_large : reach.met_by_small;
-        return {own.bodies.position[b], {own.of(b) + met, own.of(b) + reach.sand}};
+        return {own.bodies.position[b], own.bounding_radius[b], {own.of(b) + met, own.of(b) + reach.sand}};
     }
 };
 
@@ -114,9 +106,9 @@ struct WriteBalls
 };
 
 template<class Exec>
-OwnReach own_reach(const Borders<Exec>& borders, const dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies)
+OwnReach own_reach(const double* bounding_radius, const dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies)
 {
-    return {bodies, borders.bounding_radius.data(), pairs.displacement.allowed.data(), pairs.sizes.is_large.data()};
+    return {bodies, bounding_radius, pairs.displacement.allowed.data(), pairs.sizes.is_large.data()};
 }
 
 } // namespace tread::contact::border_steps
@@ -125,10 +117,9 @@ namespace tread::contact
 {
 
 template<class Exec>
-void begin_borders(const Exec& exec, Borders<Exec>& borders, const std::vector<double>& bounding_radius)
+void begin_borders(const Exec& exec, Borders<Exec>& borders, std::int64_t bodies)
 {
-    borders.bounding_radius.assign(bounding_radius);
-    borders.clear.resize(borders.bounding_radius.size());
+    borders.clear.resize(bodies);
     forget_clearances(exec, borders);
 }
 
@@ -146,34 +137,27 @@ void keep_clearances(const Exec& exec, Borders<Exec>& borders, const std::vector
 }
 
 template<class Exec>
-std::array<double, 2> largest_reaches(const Exec& exec, Borders<Exec>& borders, dem::Pairs<Exec>& pairs,
+std::array<double, 2> largest_reaches(const Exec& exec, const double* bounding_radius, dem::Pairs<Exec>& pairs,
                                       const dem::BodiesView& bodies)
 {
     pairs.measure.resize(2 * bodies.count + 2);
     double* rows = pairs.measure.data();
     for_each(exec, "reaches of bodies", bodies.count,
-             border_steps::WriteReaches{border_steps::own_reach(borders, pairs, bodies), rows});
+             border_steps::WriteReaches{border_steps::own_reach(bounding_radius, pairs, bodies), rows});
     largest_of_rows(exec, rows, bodies.count, 2, rows + 2 * bodies.count);
     return read(exec, reinterpret_cast<const std::array<double, 2>*>(rows + 2 * bodies.count));
 }
 
 template<class Exec>
-void list_borders(const Exec& exec, Borders<Exec>& borders, dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies,
-                  const BorderReach& reach)
+void list_borders(const Exec& exec, Borders<Exec>& borders, const double* bounding_radius, dem::Pairs<Exec>& pairs,
+                  const dem::BodiesView& bodies, const BorderReach& reach)
 {
-    const border_steps::Ball ball{border_steps::own_reach(borders, pairs, bodies), reach};
+    const border_steps::Ball ball{border_steps::own_reach(bounding_radius, pairs, bodies), reach};
     dem::select(exec, "bodies at borders", bodies.count, border_steps::IsAtBorder{ball, borders.clear.data()},
                 pairs.search.found, pairs.sort, borders.body);
     borders.ball.resize(borders.body.size());
     for_each(exec, "balls of bodies at borders", borders.body.size(),
              border_steps::WriteBalls{ball, borders.body.data(), borders.ball.data()});
-}
-
-template<class Exec>
-void set_roles(const Exec& exec, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
-               const std::vector<std::int32_t>& role, dem::Bodies<Exec>& bodies)
-{
-    border_steps::set_at(exec, "set roles", body, role, borders.at, borders.role, bodies.role.data());
 }
 
 template<class Exec>
@@ -183,24 +167,22 @@ void write_places(const Exec& exec, const Array<Exec, std::int32_t>& body, Array
 }
 
 template<class Exec>
-void erase_places(const Exec& exec, const Array<Exec, std::int32_t>& body, Array<Exec, std::int32_t>& place)
+void forget_places(const Exec& exec, Array<Exec, std::int32_t>& place)
 {
-    for_each(exec, "erase places", body.size(), border_steps::ErasePlace{body.data(), place.data()});
+    for_each(exec, "forget places", place.size(), border_steps::Fill<std::int32_t>{-1, place.data()});
 }
 
-#define TREAD_INSTANTIATE(Exec)                                                                                         \
-    template void                  begin_borders(const Exec&, Borders<Exec>&, const std::vector<double>&);              \
-    template void                  forget_clearances(const Exec&, Borders<Exec>&);                                      \
-    template void                  keep_clearances(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,       \
-                                                   const std::vector<Clearance>&);                                      \
-    template std::array<double, 2> largest_reaches(const Exec&, Borders<Exec>&, dem::Pairs<Exec>&,                      \
-                                                   const dem::BodiesView&);                                             \
-    template void                  list_borders(const Exec&, Borders<Exec>&, dem::Pairs<Exec>&, const dem::BodiesView&, \
-                                                const BorderReach&);                                                    \
-    template void                  set_roles(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,             \
-                                             const std::vector<std::int32_t>&, dem::Bodies<Exec>&);                     \
-    template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);              \
-    template void erase_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&)
+#define TREAD_INSTANTIATE(Exec)\
+    template void                  begin_borders(const Exec&, Borders<Exec>&, std::int64_t);\
+    template void                  forget_clearances(const Exec&, Borders<Exec>&);\
+    template void                  keep_clearances(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,\
+                                                   const std::vector<Clearance>&);\
+    template std::array<double, 2> largest_reaches(const Exec&, const double*, dem::Pairs<Exec>&,\
+                                                   const dem::BodiesView&);\
+    template void                  list_borders(const Exec&, Borders<Exec>&, const double*, dem::Pairs<Exec>&,\
+                                                const dem::BodiesView&, const BorderReach&);\
+    template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);\
+    template void forget_places(const Exec&, Array<Exec, std::int32_t>&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -16,6 +16,7 @@ template void finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<
 template void finish_step(const Cpu&, PointContact<Cpu>&, const mpm::PointsView<double>&, double);
 template void resume_candidates(const Cpu&, PointContact<Cpu>&, const dem::BodiesView&, const PointBodyLaw&);
 template void keep_history(const Cpu&, PointContact<Cpu>&);
+template void follow_rows(const Cpu&, PointContact<Cpu>&, const Array<Cpu, std::int32_t>&, const dem::BodiesView&);
 template const Summary* summarise(const Cpu&, PointContact<Cpu>&, std::int64_t);
 
 } // namespace tread::contact

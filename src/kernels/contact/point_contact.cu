@@ -16,6 +16,7 @@ template void finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<
 template void finish_step(const Gpu&, PointContact<Gpu>&, const mpm::PointsView<double>&, double);
 template void resume_candidates(const Gpu&, PointContact<Gpu>&, const dem::BodiesView&, const PointBodyLaw&);
 template void keep_history(const Gpu&, PointContact<Gpu>&);
+template void follow_rows(const Gpu&, PointContact<Gpu>&, const Array<Gpu, std::int32_t>&, const dem::BodiesView&);
 template const Summary* summarise(const Gpu&, PointContact<Gpu>&, std::int64_t);
 
 } // namespace tread::contact

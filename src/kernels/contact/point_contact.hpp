@@ -50,12 +50,19 @@ struct PrivatePoints
 struct ContactsView
 {
     CandidatesView      candidates;
+    const std::int32_t* number;     ///< of each body in the scene; null: that of its row
     const std::int32_t* slot_first; ///< [count + 1]; null: one slot each
     Tangential*         tangential; ///< per slot
     Response*           response;   ///< of the last substep
     double*             dissipated; ///< J, dissipated by friction since summarise or begin_step
 
     TREAD_HD std::int64_t first_slot(std::int64_t c) const { return slot_first == nullptr ? c : slot_first[c]; }
+
+    /// Number of the candidate's body in the scene.
+    TREAD_HD std::int32_t body_number(std::int64_t c) const
+    {
+        return number == nullptr ? candidates.body[c] : number[candidates.body[c]];
+    }
 };
 
 /// Memory of the sand-body contact.
@@ -73,6 +80,7 @@ struct PointContact
         , radius(exec, "private point radius")
         , material(exec, "private point material")
         , id(exec, "private point id")
+        , number(exec, "contact body numbers")
         , slot_first(exec, "contact slots")
         , tangential(exec, "contact tangential")
         , response(exec, "contact response")
@@ -94,7 +102,8 @@ struct PointContact
 
     ContactsView contacts()
     {
-        return {candidates.view(), slot_first.data(), tangential.data(), response.data(), dissipated.data()};
+        return {candidates.view(), number.data(),   slot_first.data(),
+                tangential.data(), response.data(), dissipated.data()};
     }
 
     /// Returns the wrenches on the bodies of the last substep.
@@ -116,6 +125,7 @@ struct PointContact
     Array<Exec, std::int32_t>  material;
     Array<Exec, std::uint32_t> id;
 
+    Array<Exec, std::int32_t> number;     ///< of the bodies when candidates were found; empty where it is their row
     Array<Exec, std::int32_t> slot_first; ///< empty if no body takes samples
     Array<Exec, Tangential>   tangential;
     Array<Exec, Response>     response;
@@ -163,6 +173,12 @@ void keep_history(const Exec& exec, PointContact<Exec>& contact);
 template<class Exec>
 void resume_candidates(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies,
                        const PointBodyLaw& law);
+
+/// Gives the bodies of the candidates their rows after others have come; none has gone. `row`: of each body's row
+/// before, its present row.
+template<class Exec>
+void follow_rows(const Exec& exec, PointContact<Exec>& contact, const Array<Exec, std::int32_t>& row,
+                 const dem::BodiesView& bodies);
 
 /// Computes the summary of the last substep (dissipated: since the last summary or begin_step); requires candidates.
 /// live_named counts the contacts of the first `named` bodies. Returns the address of the result in the backend's

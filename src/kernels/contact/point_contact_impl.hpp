@@ -42,6 +42,15 @@ void make_slots(const Exec& exec, PointContact<Exec>& contact, const dem::Bodies
     contact.tangential.resize(slots);
 }
 
+/// Copies the numbers of the bodies that the candidates are found for.
+template<class Exec>
+void copy_numbers(const Exec& exec, PointContact<Exec>& contact, const dem::BodiesView& bodies)
+{
+    if (bodies.number == nullptr) { return; }
+    contact.number.resize(bodies.count);
+    copy(exec, contact.number.data(), bodies.number, static_cast<std::size_t>(bodies.count) * sizeof(std::int32_t));
+}
+
 /// Writes the run of each body's wrenches.
 template<class Exec>
 void name_runs(const Exec& exec, PointContact<Exec>& contact, std::int64_t bodies)
@@ -60,6 +69,7 @@ void resume_candidates(const Exec& exec, PointContact<Exec>& contact, const dem:
     if (contact.candidates.body.size() > 0) { order_by_point(exec, contact.candidates); }
     resize_to_candidates(exec, contact);
     make_slots(exec, contact, bodies, law);
+    copy_numbers(exec, contact, bodies);
     name_runs(exec, contact, bodies.count);
     resize(contact.history, 0);
     if (contact.dissipated.size() > 0) { contact.dissipated.fill_zero(); }
@@ -92,6 +102,7 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
     find_candidates(exec, contact.candidates, points, pages, bodies, law.templates, law.pairs, law.radius, reach);
     resize_to_candidates(exec, contact);
     make_slots(exec, contact, bodies, law);
+    copy_numbers(exec, contact, bodies);
     name_runs(exec, contact, bodies.count);
     begin_kept_step(exec, contact, points, law);
     for_each(exec, "recall contacts", contact.candidates.body.size(),
@@ -137,6 +148,19 @@ void finish_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Point
 {
     for_each(exec, "give back impulses", contact.impulse.size(),
              contact_steps::GiveBack<Real>{contact.candidates.by_point.view(), contact.impulse.data(), dt, points});
+}
+
+template<class Exec>
+void follow_rows(const Exec& exec, PointContact<Exec>& contact, const Array<Exec, std::int32_t>& row,
+                 const dem::BodiesView& bodies)
+{
+    for (Array<Exec, std::int32_t>* of_bodies : {&contact.candidates.body, &contact.candidates.by_body.key})
+    {
+        for_each(exec, "rows of touched bodies", of_bodies->size(),
+                 contact_steps::NewRow{row.data(), of_bodies->data()});
+    }
+    copy_numbers(exec, contact, bodies);
+    name_runs(exec, contact, bodies.count);
 }
 
 template<class Exec>

@@ -62,9 +62,17 @@ TREAD_HD std::uint64_t slot_key(const ContactsView& contacts, const std::uint32_
 {
     const std::int64_t first = contacts.first_slot(c);
     const bool         alone = contacts.first_slot(c + 1) == first + 1;
-    return history_key(contacts.candidates.body[c], id[contacts.candidates.touched[c]],
+    return history_key(contacts.body_number(c), id[contacts.candidates.touched[c]],
                        alone ? 0 : static_cast<int>(s - first) + 1);
 }
+
+struct NewRow
+{
+    const std::int32_t* row; ///< now, of each row before
+    std::int32_t*       of;
+
+    TREAD_HD void operator()(std::int64_t i) const { of[i] = row[of[i]]; }
+};
 
 struct Recall
 {
@@ -353,7 +361,7 @@ struct SummaryOf
         Summary         summary  = Summary::zero();
         summary.dissipated       = contacts.dissipated[c];
         if (!(response.overlap > 0)) { return summary; }
-        const std::int32_t  b = contacts.candidates.body[c], t = contacts.candidates.touched[c];
+        const std::int32_t  b = contacts.body_number(c), t = contacts.candidates.touched[c];
         const std::uint32_t id = points.id[t];
         summary.live           = 1;
         summary.live_named     = b < named ? 1 : 0;

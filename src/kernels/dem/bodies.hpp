@@ -29,8 +29,9 @@ enum LockedFreedom : std::uint32_t
     all_flags = 511,
 };
 
-/// Role of a rank for a body in a parallel run. All ranks number bodies alike and hold memory for all of them, so that
-/// body indices in contacts and contact histories are valid on every rank.
+/// Role of a rank for a body that it has a row for. In a parallel run a rank has rows for the named bodies, and for the
+/// rocks that it owns or holds as ghosts. A body's number is its place in the scene, the same on all ranks; rows ascend
+/// with numbers, so that the first body of a pair is the same on every rank.
 enum BodyRole : std::int32_t
 {
     role_owner, ///< integrates the body and accounts for its energy
@@ -58,7 +59,8 @@ struct BodiesView
     Vec3<double>*  torque;           ///< N m, about the centre of mass
     double*        stiffness;        ///< N/m, sum of K over the touching contacts of the last substep
 
-    const std::int32_t* role = nullptr; ///< BodyRole; null: this rank owns all bodies
+    const std::int32_t* role   = nullptr; ///< BodyRole; null: this rank owns all bodies
+    const std::int32_t* number = nullptr; ///< of each body in the scene; null: that of its row
 
     const double* weight = nullptr; ///< share of the weight that acts on each named body with `hangs`
 
@@ -102,6 +104,7 @@ struct Bodies
         , torque(exec, "body torque")
         , stiffness(exec, "body stiffness")
         , role(exec, "body roles")
+        , number(exec, "body numbers")
         , weight(exec, "shares of weight")
         , asleep(exec, "sleeping bodies")
     {
@@ -112,11 +115,11 @@ struct Bodies
         return {position.size(), position.data(), orientation.data(), velocity.data(), angular_velocity.data(),
                 mass.data(),     inertia.data(),  scale.data(),       shape.data(),    material.data(),
                 locked.data(),   damped.data(),   force.data(),       torque.data(),   stiffness.data(),
-                role.data(),     weight.data(),   asleep.data()};
+                role.data(),     number.data(),   weight.data(),      asleep.data()};
     }
 
-    /// Calls f(name, array) for every array except the roles, which differ between ranks, and `asleep`, which belongs
-    /// to the sleep of bodies.
+    /// Calls f(name, array) for every array except roles and numbers, which differ between ranks, and `asleep`, which
+    /// belongs to the sleep of bodies.
     template<class F>
     void for_each_field(F f)
     {
@@ -152,6 +155,7 @@ struct Bodies
     Array<Exec, Vec3<double>>  torque;
     Array<Exec, double>        stiffness;
     Array<Exec, std::int32_t>  role;   ///< empty in a run with one rank
+    Array<Exec, std::int32_t>  number; ///< likewise
     Array<Exec, double>        weight; ///< of the named bodies
     Array<Exec, std::int32_t>  asleep; ///< empty where no body may sleep
 };

@@ -29,7 +29,7 @@ inline constexpr int reach_slack = 2;
 template<class Exec>
 std::vector<BodyReach> bodies_that_wake_sand(const Exec& exec, const dem::BodiesView& bodies,
                                              const dem::SleepingBodies<Exec>& sleepers, const world::World& world,
-                                             const WakingRule& rule)
+                                             const BodyNumbers& numbers, const WakingRule& rule)
 {
     const auto                count = static_cast<std::size_t>(bodies.count);
     std::vector<Vec3<double>> centre(count), velocity(count);
@@ -45,8 +45,9 @@ std::vector<BodyReach> bodies_that_wake_sand(const Exec& exec, const dem::Bodies
     for (std::size_t b = 0; b < count; ++b)
     {
         if (!role.empty() && role[b] != dem::role_owner) { continue; }
-        const auto&  form   = world.templates[static_cast<std::size_t>(world.bodies.shape[b])];
-        const double radius = form.bounding_radius * world.bodies.scale[b], far = radius + rule.distance;
+        const auto   body   = static_cast<std::size_t>(numbers.number(static_cast<std::int64_t>(b)));
+        const auto&  form   = world::template_of(world, body);
+        const double radius = form.bounding_radius * world.bodies.scale[body], far = radius + rule.distance;
         if (asleep.empty() || static_cast<std::int64_t>(b) < sleepers.rule.first)
         {
             reaches.push_back({centre[b], far, far + reach_slack * rule.page_edge});

@@ -1,6 +1,7 @@
 #include "solver/bodies/body_reports.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "solver/bodies/body_checks.hpp"
 #include "solver/ranks/over_ranks.hpp"
+#include "solver/ranks/row_arrays.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
@@ -66,8 +68,8 @@ void clear(BodyReports<Exec>& reports)
 } // namespace
 
 template<class Exec>
-BodyReports<Exec>::BodyReports(const Exec& exec, std::int64_t bodies)
-    : totals(exec, "body totals", bodies)
+BodyReports<Exec>::BodyReports(const Exec& exec, std::int64_t rows)
+    : totals(exec, "body totals", rows)
     , sums(exec, "body sums", sizeof(BodyReportSums) / sizeof(double))
     , sums_on_host(exec, "body sums on the host")
     , displacement_on_host(exec, "body displacement on the host")
@@ -77,15 +79,43 @@ BodyReports<Exec>::BodyReports(const Exec& exec, std::int64_t bodies)
 }
 
 template<class Exec>
-void BodyReports<Exec>::transfer(StateFile& file)
+void BodyReports<Exec>::follow(const RowMoves<Exec>& moves)
+{
+    const Exec&               exec = totals.exec();
+    std::vector<std::int32_t> gone = moves.gone;
+    gone.push_back(static_cast<std::int32_t>(totals.size() - 1));
+    Array<Exec, std::int32_t> rows(exec, "rows of bodies that have gone");
+    dem::BodyTotals<Exec>     theirs(exec, "totals of bodies that have gone", static_cast<std::int64_t>(gone.size()));
+    rows.assign(gone);
+    decomp::pack_rows(exec, decomp::columns(totals.data()), rows.data(), rows.size(),
+                      reinterpret_cast<std::uint32_t*>(theirs.data()));
+    const std::vector<dem::BodyTotal> of_gone = theirs.to_host();
+
+    take_rows(exec, moves.from, totals);
+    totals.resize_keep(moves.from.size() + 1);
+    std::array<double, dem::body_total_width> sum{};
+    for (const dem::BodyTotal& total : of_gone)
+    {
+        const auto* values = reinterpret_cast<const double*>(&total);
+        for (std::size_t c = 0; c < sum.size(); ++c) { sum[c] += values[c]; }
+    }
+    copy_from_host(exec, totals.data() + moves.from.size(), sum.data(), sizeof(sum));
+}
+
+template<class Exec>
+void BodyReports<Exec>::transfer(StateFile& file, std::int64_t rows)
 {
     if (file.exact())
     {
-        const auto bodies = static_cast<std::size_t>(totals.size());
-        file.own("bodies/totals", totals, accept::all(accept::rows(bodies), accept::finite()));
+        file.own("bodies/totals", totals,
+                 accept::all(accept::rows(static_cast<std::size_t>(rows)), accept::finite()));
         file.doubles("bodies/taken", taken);
     }
-    else if (file.loads()) { clear(*this); }
+    else if (file.loads())
+    {
+        totals.resize(rows);
+        clear(*this);
+    }
 }
 
 template<class Exec>

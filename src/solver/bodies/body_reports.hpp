@@ -21,17 +21,28 @@ struct BodyReportSums
     dem::BodyTotal    total;
 };
 
+/// Number of totals: of each body that this rank has a row for and, on several ranks, of all that have gone.
+template<class Exec>
+std::int64_t total_rows(const BodyState<Exec>& state)
+{
+    return state.bodies.position.size() + (state.ranks ? 1 : 0);
+}
+
 /// Report of the steps since the last one: totals of the substeps, sums over bodies, and their readbacks.
 template<class Exec>
 struct BodyReports
 {
-    BodyReports(const Exec& exec, std::int64_t bodies);
+    /// `rows`: of totals (total_rows), here and below.
+    BodyReports(const Exec& exec, std::int64_t rows);
+
+    /// Takes the totals along where rows have changed.
+    void follow(const RowMoves<Exec>& moves);
 
     /// Saves or loads the totals where the state is exact. Otherwise loading sets them to zero: their increase was
     /// accounted for when the state was saved. `rebuilt_overlap` is in bodies/steps.
-    void transfer(StateFile& file);
+    void transfer(StateFile& file, std::int64_t rows);
 
-    dem::BodyTotals<Exec>                         totals;   ///< of the substeps, by body
+    dem::BodyTotals<Exec>                         totals;   ///< of the substeps
     dem::BodyTotal                                taken{};  ///< sum of the totals at the last report
     Array<Exec, double>                           sums;     ///< BodyReportSums
     std::optional<Array<Exec, dem::BodyActivity>> activity; ///< of the requested report

@@ -30,14 +30,18 @@ struct BodyState
     dem::BodiesView view() { return bodies.view(); }
     std::int64_t    named() const { return world.bodies.named; }
 
-    /// Name for messages: that of a named body, or "rock 17".
-    std::string name(std::int64_t body) const;
+    /// Numbers of the bodies that this rank has rows for.
+    const BodyNumbers& numbers() const { return ranks ? ranks->numbers() : every; }
+
+    /// Name for messages of a row's body: that of a named body, or "rock 17".
+    std::string name(std::int64_t row) const { return name_of_number(numbers().number(row)); }
+    std::string name_of_number(std::int64_t number) const;
 
     /// Passes changes of the bodies on to the data that contacts read.
     void stage() { dem::stage_bodies(exec, pairs, bodies.view()); }
 
-    /// Whether this rank integrates the body and accounts for its energy.
-    bool owns(std::int64_t body) const { return !ranks || ranks->owns(body); }
+    /// Whether this rank integrates a row's body and accounts for its energy.
+    bool owns(std::int64_t row) const { return !ranks || ranks->owns(row); }
 
     /// Whether this rank shares bodies with others, so that every substep exchanges messages.
     bool            shares() const { return ranks && ranks->shares(); }
@@ -49,12 +53,19 @@ struct BodyState
     /// Order of the bodies in files; valid until they change owners. Collective.
     BodyBlocks blocks() const { return ranks ? ranks->blocks() : BodyBlocks(); }
 
-    /// Saves or loads the bodies, but neither their pairs nor their owners.
+    /// Moves bodies to the ranks that now own them (BodyRanks::assign_owners); several ranks only.
+    void assign_owners(UnheldRows unheld) { ranks->assign_owners({bodies, pairs, tables.bounding_radii}, unheld); }
+
+    /// Change of rows in the last assign_owners(); null where there was none.
+    const RowMoves<Exec>* row_moves() const { return ranks ? ranks->row_moves() : nullptr; }
+
+    /// Saves or loads the bodies, and where the state is exact their owners, but not their pairs.
     void transfer(StateFile& file);
 
     Exec                           exec;
     const scene::Scene&            scene;
     const world::World&            world;
+    BodyNumbers                    every;       ///< all bodies, for which one rank has rows
     Vec3<double>                   gravity;     ///< m/s2
     double                         mass = 0;    ///< kg, of all bodies
     bool                           has_contact; ///< whether a body may touch another or a wall

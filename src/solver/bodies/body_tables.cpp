@@ -28,8 +28,7 @@ BodyTables<Exec>::BodyTables(const Exec& exec, const scene::Scene& scene, const 
                                        {world::hertz_factor(scene.numerics.hertz), scene.numerics.linear_overlap},
                                        rays.views()};
     const std::vector<double> radii = solver::bounding_radii(world);
-    bounding_radii.assign(radii);
-    smallest_radius = *std::min_element(radii.begin(), radii.end());
+    smallest_radius                 = *std::min_element(radii.begin(), radii.end());
 }
 
 #define TREAD_INSTANTIATE(Exec) template struct BodyTables<Exec>

@@ -22,7 +22,7 @@ struct BodyTables
     DeviceRays<Exec>                 rays;
     Array<Exec, dem::PairProperties> properties; ///< of pairs of materials
     Array<Exec, dem::Plane>          planes;
-    Array<Exec, double>              bounding_radii;          ///< m, by body
+    Array<Exec, double>              bounding_radii;          ///< m, by body, written with the bodies
     double                           smallest_radius = 0;     ///< m, of the bounding spheres
     bool                             rolling         = false; ///< whether some pair of materials has rolling friction
     dem::BodyLaw                     law{};                   ///< view of the tables

@@ -19,7 +19,9 @@ template<class Exec>
 std::pair<std::size_t, std::size_t> materials_of(const BodyState<Exec>& state, std::size_t wall, std::uint64_t key)
 {
     const std::vector<std::int32_t>& material = state.world.bodies.material;
-    const auto a = static_cast<std::size_t>(dem::first_of(key)), b = static_cast<std::size_t>(dem::second_of(key));
+    const std::uint64_t              number   = state.numbers().key_in_scene(key);
+    const auto                       a        = static_cast<std::size_t>(dem::first_of(number)),
+                                     b        = static_cast<std::size_t>(dem::second_of(number));
     const auto one = static_cast<std::size_t>(material[a]);
     return std::minmax({one, b < material.size() ? static_cast<std::size_t>(material[b]) : wall});
 }
@@ -42,8 +44,9 @@ template<class Exec>
 double smaller_radius(const BodyState<Exec>& state, std::uint64_t key)
 {
     const std::vector<double>& radius = state.world.bodies.radius;
-    const auto                 a      = static_cast<std::size_t>(dem::first_of(key));
-    const auto                 b      = static_cast<std::size_t>(dem::second_of(key));
+    const std::uint64_t        number = state.numbers().key_in_scene(key);
+    const auto                 a      = static_cast<std::size_t>(dem::first_of(number));
+    const auto                 b      = static_cast<std::size_t>(dem::second_of(number));
     return b < radius.size() ? std::min(radius[a], radius[b]) : radius[a];
 }
 

@@ -6,6 +6,7 @@
 
 #include "backend/instantiate.hpp"
 #include "decomp/messages.hpp"
+#include "solver/ranks/over_ranks.hpp"
 #include "solver/ranks/record_migration.hpp"
 #include "solver/state_file.hpp"
 
@@ -101,10 +102,11 @@ void restore_contacts(BodyState<Exec>& state)
     const auto is_large = state.pairs.sizes.is_large.to_host();
     for (const world::ContactRecord& contact : contacts)
     {
-        if (!decides(state, is_large, contact.key)) { continue; }
-        const bool again = !records.key.empty() && dem::same_pair(records.key.back(), contact.key);
+        const auto key = state.numbers().find_key(contact.key);
+        if (!key || !decides(state, is_large, *key)) { continue; }
+        const bool again = !records.key.empty() && dem::same_pair(records.key.back(), *key);
         several          = several || again;
-        records.key.push_back(again ? records.key.back() + 1 : contact.key);
+        records.key.push_back(again ? records.key.back() + 1 : *key);
         records.place.push_back(contact.place);
         records.patch.push_back(contact.patch);
         records.rolling.push_back(contact.rolling);
@@ -124,7 +126,7 @@ std::vector<world::ContactRecord> live_contacts(const BodyState<Exec>& state)
     for (std::size_t p = 0; p < listed.key.size(); ++p)
     {
         if (!(listed.patch[p].stiffness > 0)) { continue; }
-        found.push_back({dem::whole_pair(listed.key[p]), listed.patch[p],
+        found.push_back({dem::whole_pair(state.numbers().key_in_scene(listed.key[p])), listed.patch[p],
                          state.pairs.resists_rolling ? listed.rolling[p] : dem::no_rolling(),
                          listed.place.empty() ? Vec3<double>::Zero() : listed.place[p]});
     }
@@ -139,6 +141,26 @@ std::vector<world::ContactRecord> live_contacts(const BodyState<Exec>& state)
     return all;
 }
 
+/// Turns the keys of a scene's pairs into those of this rank's rows.
+template<class Exec>
+void take_keys_here(const BodyState<Exec>& state, RecordArrays& records, const StateFile& file)
+{
+    check_on_ranks(state.communicator(),
+                   [&]
+                   {
+                       for (std::size_t p = 0; p < records.key.size(); ++p)
+                       {
+                           const auto key = state.numbers().find_key(records.key[p]);
+                           if (!key)
+                           {
+                               file.refuse("pairs/key", {static_cast<std::int64_t>(p), "another pair",
+                                                         "a pair of bodies that the rank has rows for"});
+                           }
+                           records.key[p] = *key;
+                       }
+                   });
+}
+
 template<class Exec>
 void transfer_contacts(BodyState<Exec>& state, StateFile& file)
 {
@@ -148,6 +170,7 @@ void transfer_contacts(BodyState<Exec>& state, StateFile& file)
     records.rolling.resize(records.key.size(), dem::no_rolling());
     records.place.resize(records.key.size(), Vec3<double>::Zero());
     file.numbers("pairs/several", with_places);
+    for (std::uint64_t& key : records.key) { key = state.numbers().key_in_scene(key); }
     const auto keys = accepted_keys(state.world);
     if (file.exact()) { file.own_or_all("pairs/key", records.key, accept::all(keys, accept::ascending())); }
     else { file.own_or_all("pairs/key", records.key, keys); }
@@ -157,6 +180,7 @@ void transfer_contacts(BodyState<Exec>& state, StateFile& file)
     file.own_or_all("pairs/place", records.place, of_each_pair);
     if (!file.loads()) { return; }
 
+    take_keys_here(state, records, file);
     const RecordArrays chosen = chosen_records(state, records, file);
     pairs.key.assign(chosen.key);
     pairs.patch.assign(chosen.patch);

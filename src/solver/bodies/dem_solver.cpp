@@ -23,7 +23,7 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     : state_(exec, scene, world, plan, decomposition)
     , commands_(world.bodies.named)
     , lists_(exec)
-    , reports_(exec, static_cast<std::int64_t>(world.bodies.size()))
+    , reports_(exec, total_rows(state_))
     , means_(exec, world.bodies.named)
     , prescribed_acceleration_(motion_bounds(scene, world).acceleration)
 {
@@ -79,8 +79,17 @@ void DemSolver<Exec>::find_pairs(double dt)
 {
     update_sleep(state_, lists_, reports_, sleep_, substep_);
     state_.pairs.sleep.wakes = state_.pairs.sleep.wanted;
-    update_pairs(state_, lists_, dt, substeps_in(dt));
+    renew_pairs(dt, UnheldRows::go);
     state_.pairs.sleep.wakes = false;
+}
+
+/// Returns whether pairs were found anew.
+template<class Exec>
+bool DemSolver<Exec>::renew_pairs(double dt, UnheldRows unheld)
+{
+    const bool found = update_pairs(state_, lists_, dt, substeps_in(dt), unheld);
+    if (found && row_moves() != nullptr) { reports_.follow(*row_moves()); }
+    return found;
 }
 
 template<class Exec>
@@ -129,7 +138,7 @@ bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
     }
     const double dt = step.dt / static_cast<double>(step.substeps);
     check_before_search(state_, reports_, time + dt * static_cast<double>(done));
-    return update_pairs(state_, lists_, step.dt, substeps_in(step.dt));
+    return renew_pairs(step.dt, UnheldRows::stay);
 }
 
 template<class Exec>
@@ -297,7 +306,6 @@ template<class Exec>
 void DemSolver<Exec>::transfer(StateFile& file)
 {
     state_.transfer(file);
-    if (state_.ranks && file.exact()) { state_.ranks->transfer(file, state_.bodies); }
     file.numbers("bodies/steps", lists_.partition_version, lists_.checked_within_step, commands_.largest_speed,
                  reports_.rebuilt_overlap, means_.time, substep_, commands_.totals.work);
     commands_.transfer(file);
@@ -305,7 +313,7 @@ void DemSolver<Exec>::transfer(StateFile& file)
     if (motions_) { motions_->transfer(file); }
     transfer_contacts(state_, file);
     lists_.transfer(file, state_);
-    reports_.transfer(file);
+    reports_.transfer(file, total_rows(state_));
     if (joints_) { joints_->transfer(file); }
     if (state_.pairs.sleep.wanted) { transfer_sleep(state_, sleep_, file); }
 }

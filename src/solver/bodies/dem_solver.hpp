@@ -67,8 +67,14 @@ public:
     /// Whether this rank shares bodies with others, so that every substep exchanges messages.
     bool shares() const { return state_.shares(); }
 
+    /// Numbers of the bodies that this rank has rows for.
+    const BodyNumbers& numbers() const { return state_.numbers(); }
+
+    /// Change of rows when owners were assigned last; null where there was none.
+    const RowMoves<Exec>* row_moves() const { return state_.row_moves(); }
+
     /// Name for messages: that of a named body, or "rock 17".
-    std::string name(std::int64_t body) const { return state_.name(body); }
+    std::string name(std::int64_t number) const { return state_.name_of_number(number); }
 
     /// Partition version: the bodies on this rank stay the same while it is unchanged. 0 on one rank.
     std::int64_t partition_version() const { return lists_.partition_version; }
@@ -213,6 +219,8 @@ public:
     void transfer(StateFile& file);
 
 private:
+    bool renew_pairs(double dt, UnheldRows unheld);
+
     /// Number of substeps in dt (s), as the last one was.
     double substeps_in(double dt) const { return substep_ > 0 ? dt / substep_ : 1; }
 

@@ -57,7 +57,7 @@ bool is_valid(BodyState<Exec>& state, PairLists<Exec>& lists, double dt)
 }
 
 template<class Exec>
-void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps)
+void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps, UnheldRows unheld)
 {
     const Exec&         exec  = state.exec;
     dem::Pairs<Exec>&   pairs = state.pairs;
@@ -70,10 +70,11 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     }
     dem::request_displacement(exec, pairs, state.view(), law, dt, state.shared());
     if (state.ranks) { state.ranks->sum_wanted_displacement(pairs); }
-    dem::allow_displacement(exec, pairs, state.view(), law, dt, substeps);
+    dem::allow_displacement(exec, pairs, state.view(), law, dt, substeps,
+                            static_cast<std::int64_t>(state.numbers().bodies()));
     if (state.ranks)
     {
-        state.ranks->assign_owners(state.bodies, pairs);
+        state.assign_owners(unheld);
         ++lists.partition_version;
     }
     dem::list_pairs(exec, pairs, state.view(), law);
@@ -81,15 +82,15 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     lists.listed = true;
 }
 
-/// Number of nodes of a body's surface.
-std::int64_t nodes_of(const world::World& world, std::int64_t body)
+/// Number of nodes of the surface of a row's body.
+std::int64_t nodes_of(const world::World& world, const BodyNumbers& numbers, std::int64_t row)
 {
-    const auto shape = static_cast<std::size_t>(world.bodies.shape[static_cast<std::size_t>(body)]);
+    const auto shape = static_cast<std::size_t>(world.bodies.shape[static_cast<std::size_t>(numbers.number(row))]);
     return static_cast<std::int64_t>(world.templates[shape].nodes.positions.size());
 }
 
 /// Accepts, for each pair, nodes of its bodies: i of the first, ~i of the second. `first`: start of each pair's nodes.
-auto accepted_nodes(const world::World& world, const std::vector<std::uint64_t>& keys,
+auto accepted_nodes(const world::World& world, const BodyNumbers& numbers, const std::vector<std::uint64_t>& keys,
                     const std::vector<std::int32_t>& first)
 {
     return [&](const std::vector<std::int32_t>& values) -> accept::Verdict
@@ -97,8 +98,8 @@ auto accepted_nodes(const world::World& world, const std::vector<std::uint64_t>&
         for (std::size_t pair = 0; pair + 1 < first.size(); ++pair)
         {
             const std::int64_t a = dem::first_of(keys[pair]), b = dem::second_of(keys[pair]);
-            const bool         wall = b >= static_cast<std::int64_t>(world.bodies.size());
-            const std::int64_t high = nodes_of(world, a) - 1, low = wall ? 0 : -nodes_of(world, b);
+            const bool         wall = b >= static_cast<std::int64_t>(numbers.rows());
+            const std::int64_t high = nodes_of(world, numbers, a) - 1, low = wall ? 0 : -nodes_of(world, numbers, b);
             for (auto i = static_cast<std::size_t>(first[pair]); i < static_cast<std::size_t>(first[pair + 1]); ++i)
             {
                 if (low <= values[i] && values[i] <= high) { continue; }
@@ -113,11 +114,11 @@ auto accepted_nodes(const world::World& world, const std::vector<std::uint64_t>&
 } // namespace
 
 template<class Exec>
-bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps)
+bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps, UnheldRows unheld)
 {
     const bool valid = is_valid(state, lists, dt);
     if (valid) { state.stage(); } // commands change bodies too
-    else { build(state, lists, dt, substeps); }
+    else { build(state, lists, dt, substeps, unheld); }
     dem::expect_contacts(state.exec, state.pairs, state.view(), state.tables.law, state.gravity, dt, state.shared());
     if (state.ranks)
     {
@@ -248,7 +249,7 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     file.own("pairs/first_node", first, of_each(keys.size() + 1, accept::cuts()));
     const std::size_t nodes = first.empty() ? 0 : static_cast<std::size_t>(std::max(first.back(), 0));
     file.own("pairs/node", pairs.nodes.node,
-             accept::all(accept::rows(nodes), accepted_nodes(state.world, keys, first)));
+             accept::all(accept::rows(nodes), accepted_nodes(state.world, state.numbers(), keys, first)));
     file.own("pairs/several_first", pairs.patches.several,
              accept::all(accept::ascending(), accept::index(keys.size())));
     file.own("bodies/position_at_search", displacements.position, of_each(count, accept::finite()));
@@ -261,7 +262,7 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template struct PairLists<Exec>;                                                                                   \
-    template bool         update_pairs(BodyState<Exec>&, PairLists<Exec>&, double, double);                            \
+    template bool         update_pairs(BodyState<Exec>&, PairLists<Exec>&, double, double, UnheldRows);                \
     template std::int64_t substeps_without_check(const BodyState<Exec>&, PairLists<Exec>&, const TimeStep&,            \
                                                  const MotionBound&, double);                                          \
     template std::int64_t steps_without_check(const BodyState<Exec>&, double, const MotionBound&);                     \

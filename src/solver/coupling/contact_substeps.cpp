@@ -58,6 +58,15 @@ void run_unchecked(const ContactSubsteps<Exec, Real>& parts, double dt, std::int
     }
 }
 
+/// Call when the list of pairs was rebuilt within a step.
+template<class Exec, class Real>
+void follow_rows(const ContactSubsteps<Exec, Real>& parts)
+{
+    const RowMoves<Exec>* moves = parts.bodies.row_moves();
+    if (moves == nullptr || parts.coupling == nullptr) { return; }
+    parts.coupling->follow_rows(moves->to, parts.bodies.view());
+}
+
 /// Synchronises first: launches are asynchronous, and no time would pass between two checks.
 template<class Exec, class Real>
 void check_stop(const ContactSubsteps<Exec, Real>& parts)
@@ -102,7 +111,9 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
             clock.run(parts.exec, stage::pairs,
                       [&]
                       {
-                          if (parts.bodies.find_pairs_if_displaced(step, batch, done, time)) { list_moved(); }
+                          if (!parts.bodies.find_pairs_if_displaced(step, batch, done, time)) { return; }
+                          follow_rows(parts);
+                          list_moved();
                       });
         }
         done += run_batch(parts, dt, done, std::min(step.substeps - done, batch), clock);

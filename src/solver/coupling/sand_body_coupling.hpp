@@ -59,6 +59,12 @@ public:
     NewTouch new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
                        const TouchChange& change);
 
+    /// Gives touched bodies their rows after others have come within a step. `row`: of each row before, the present one.
+    void follow_rows(const Array<Exec, std::int32_t>& row, const dem::BodiesView& bodies)
+    {
+        contact::follow_rows(exec_, contact_, row, bodies);
+    }
+
     /// Updates the contacts with the changes of their points in the last step, unless find_candidates has just done
     /// so.
     void begin_step(const mpm::PointsView<Real>& points);
@@ -106,6 +112,8 @@ public:
 
 private:
     bool any_near() const { return contact_.candidates.body.size() > 0; }
+
+    std::vector<std::int32_t> touched_bodies() const;
 
     NewTouch own_new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
                            const TouchChange& change);

@@ -98,7 +98,8 @@ void SandBodyCoupling<Exec, Real>::transfer_candidates(StateFile& file, const de
 {
     std::vector<std::int32_t> body  = contact_.candidates.body.to_host();
     std::vector<std::int32_t> point = contact_.candidates.point.to_host();
-    file.own("candidates/body", body, accept::all(accept::index(partners.bodies), accept::ascending()));
+    file.own("candidates/body", body,
+             accept::all(accept::index(static_cast<std::size_t>(bodies.count)), accept::ascending()));
     file.own("candidates/point", point, accept::all(accept::rows(body.size()), accept::index(partners.points)));
     if (file.loads())
     {

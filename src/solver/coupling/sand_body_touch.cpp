@@ -8,12 +8,23 @@
 namespace tread::solver
 {
 
+/// Number of each candidate's body in the scene.
+template<class Exec, class Real>
+std::vector<std::int32_t> SandBodyCoupling<Exec, Real>::touched_bodies() const
+{
+    std::vector<std::int32_t>       bodies = contact_.candidates.body.to_host();
+    const std::vector<std::int32_t> number = contact_.number.to_host();
+    if (number.empty()) { return bodies; }
+    for (std::int32_t& body : bodies) { body = number[static_cast<std::size_t>(body)]; }
+    return bodies;
+}
+
 template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::int32_t>& material, std::size_t sides,
                                                         std::vector<double>& energies) const
 {
     const auto response = contact_.response.to_host();
-    const auto body = contact_.candidates.body.to_host(), touched = contact_.candidates.touched.to_host(),
+    const auto body = touched_bodies(), touched = contact_.candidates.touched.to_host(),
                sand = contact_.material.to_host();
     const auto add  = [&](std::int32_t of_sand, std::int32_t of_body, double energy)
     {
@@ -44,7 +55,7 @@ NewTouch SandBodyCoupling<Exec, Real>::own_new_touch(const dem::BodiesView&     
     if (!any_near()) { return found; }
     contact::substep(exec_, contact_, bodies, law_, 0);
     const auto response = contact_.response.to_host();
-    const auto body = contact_.candidates.body.to_host(), touched = contact_.candidates.touched.to_host(),
+    const auto body = touched_bodies(), touched = contact_.candidates.touched.to_host(),
                sand   = contact_.material.to_host();
     const auto radius = contact_.radius.to_host();
     for (std::size_t c = 0; c < response.size(); ++c)

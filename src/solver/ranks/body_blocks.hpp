@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "decomp/messages.hpp"
+#include "solver/ranks/body_numbers.hpp"
 
 namespace tread::solver
 {
@@ -17,10 +18,10 @@ public:
     /// One rank, whose block is all bodies.
     BodyBlocks() = default;
 
-    /// `owned`: bodies of this rank, ascending; each of all `bodies` is owned by one rank. Collective.
-    BodyBlocks(const Communicator& communicator, std::vector<std::int32_t> owned, std::size_t bodies);
+    /// `owned`: numbers of this rank's bodies, ascending; each body of the scene is owned by one rank. Collective.
+    BodyBlocks(const Communicator& communicator, const std::vector<std::int32_t>& owned, const BodyNumbers& numbers);
 
-    /// Rows of this rank's block. `values`: a row for each body, of which only those of owned bodies are read.
+    /// Rows of this rank's block. `values`: a row for each of its bodies, of which only those of owned ones are read.
     /// Collective.
     template<class T>
     std::vector<T> rows(std::vector<T> values) const
@@ -31,7 +32,7 @@ public:
         {
             for (std::size_t i = cuts_[rank]; i < cuts_[rank + 1]; ++i)
             {
-                leaving[rank].push_back(values[static_cast<std::size_t>(owned_[i])]);
+                leaving[rank].push_back(values[static_cast<std::size_t>(rows_[i])]);
             }
         }
         std::vector<T> block(size_);
@@ -45,8 +46,8 @@ public:
 
 private:
     const Communicator*       communicator_ = nullptr;
-    std::vector<std::int32_t> owned_;
-    std::vector<std::size_t>  cuts_;     ///< [ranks + 1], first of owned_ that belongs to each rank's block
+    std::vector<std::int32_t> rows_;     ///< of owned bodies
+    std::vector<std::size_t>  cuts_;     ///< [ranks + 1], first of rows_ that belongs to each rank's block
     std::vector<std::size_t>  places_;   ///< in this rank's block, of the rows that arrive
     std::size_t               size_ = 0; ///< of this rank's block
 };

@@ -7,8 +7,7 @@
 
 #include "base/errors.hpp"
 #include "decomp/combine.hpp"
-#include "kernels/dem/bodies.hpp"
-#include "solver/bodies/bounding_radii.hpp"
+#include "kernels/dem/pairs/pairs.hpp"
 #include "solver/ranks/page_loads.hpp"
 
 namespace tread::solver
@@ -29,7 +28,7 @@ std::vector<std::int32_t> every_rank(const Communicator& communicator)
 
 std::vector<std::uint8_t> jointed(const world::World& world)
 {
-    std::vector<std::uint8_t> is_jointed(world.bodies.size(), 0);
+    std::vector<std::uint8_t> is_jointed(static_cast<std::size_t>(world.bodies.named), 0);
     for (const dem::Joint& joint : world.joints)
     {
         for (const std::int32_t b : joint.body)
@@ -45,9 +44,9 @@ std::vector<std::uint8_t> jointed(const world::World& world)
 BodyOwners::BodyOwners(const Communicator& communicator, const world::World& world)
     : communicator_(communicator)
     , lattice_(page_lattice_of(world))
-    , bounding_radius_(bounding_radii(world))
-    , role_(world.bodies.size())
+    , numbers_(world.bodies.size())
     , is_jointed_(jointed(world))
+    , always_(static_cast<std::int32_t>(std::max<std::int64_t>(world.bodies.named, 1)))
 {
 }
 
@@ -58,51 +57,78 @@ void BodyOwners::follow(const std::vector<std::uint64_t>& keys, const decomp::Pa
     pages_version_ = version;
 }
 
-void BodyOwners::Owned::add(std::int32_t body, std::int32_t role, double sign)
+void BodyOwners::set(std::vector<std::int32_t> numbers, std::vector<std::int32_t> roles)
 {
-    if (role != dem::role_owner) { return; }
-    count += sign;
-    sum += sign * static_cast<double>(body);
+    owned_ = {};
+    for (std::size_t row = 0; row < numbers.size(); ++row)
+    {
+        if (roles[row] != dem::role_owner) { continue; }
+        owned_.count += 1;
+        owned_.sum += numbers[row];
+    }
+    numbers_ = BodyNumbers(std::move(numbers), numbers_.bodies());
+    role_    = std::move(roles);
 }
 
-void BodyOwners::assign(const std::vector<Vec3<double>>& position)
+void BodyOwners::assign(const world::World& world)
 {
-    const std::int32_t here = communicator_.rank();
-    ghosts_.clear();
-    owned_ = {};
-    for (std::size_t b = 0; b < role_.size(); ++b)
+    const std::size_t         count = world.bodies.size();
+    std::vector<std::uint8_t> owns(count), wanted(count);
+    for (std::size_t b = 0; b < count; ++b)
     {
-        role_[b] = ownership_->owner_of(position[b]) == here ? dem::role_owner : dem::role_none;
-        owned_.add(static_cast<std::int32_t>(b), role_[b], 1);
+        owns[b]   = ownership_->owner_of(world.bodies.position[b]) == communicator_.rank() ? 1 : 0;
+        wanted[b] = owns[b] != 0 || b < static_cast<std::size_t>(always_) ? 1 : 0;
     }
+    for (const world::ContactRecord& contact : world.contacts)
+    {
+        const auto a = static_cast<std::size_t>(dem::first_of(contact.key)),
+                   b = static_cast<std::size_t>(dem::second_of(contact.key));
+        if (b >= count || owns[a] == owns[b]) { continue; }
+        wanted[a] = wanted[b] = 1;
+    }
+    std::vector<std::int32_t> numbers, roles;
+    for (std::size_t b = 0; b < count; ++b)
+    {
+        if (wanted[b] == 0) { continue; }
+        numbers.push_back(static_cast<std::int32_t>(b));
+        roles.push_back(owns[b] != 0 ? dem::role_owner : dem::role_none);
+    }
+    set(std::move(numbers), std::move(roles));
 }
 
-void BodyOwners::restore(const std::vector<std::int32_t>& owned, const BodyHoldings& held)
+void BodyOwners::take_all()
 {
-    std::fill(role_.begin(), role_.end(), dem::role_none);
-    ghosts_.clear();
-    owned_ = {};
-    for (const std::int32_t body : owned)
+    std::vector<std::int32_t> roles(numbers_.bodies(), dem::role_none);
+    for (std::size_t row = 0; row < role_.size(); ++row)
     {
-        role_[static_cast<std::size_t>(body)] = dem::role_owner;
-        owned_.add(body, dem::role_owner, 1);
+        if (role_[row] != dem::role_owner) { continue; }
+        roles[static_cast<std::size_t>(numbers_.number(static_cast<std::int64_t>(row)))] = dem::role_owner;
     }
+    set(BodyNumbers(numbers_.bodies()).all(), std::move(roles));
+}
+
+void BodyOwners::restore(std::vector<std::int32_t> numbers, const std::vector<std::int32_t>& owned,
+                         const BodyHoldings& held)
+{
+    const BodyNumbers         rows(numbers, numbers_.bodies());
+    std::vector<std::int32_t> roles(numbers.size(), dem::role_none);
     for (const BodyHolding& body : held)
     {
-        std::int32_t& role = role_[static_cast<std::size_t>(body.body)];
-        if (role == dem::role_owner) { continue; }
-        role = dem::role_ghost;
-        ghosts_.push_back(body.body);
+        if (const auto row = rows.find_row(body.body)) { roles[static_cast<std::size_t>(*row)] = dem::role_ghost; }
     }
+    for (const std::int32_t body : owned)
+    {
+        if (const auto row = rows.find_row(body)) { roles[static_cast<std::size_t>(*row)] = dem::role_owner; }
+    }
+    set(std::move(numbers), std::move(roles));
 }
 
 double BodyOwners::slack() const { return owner_slack * lattice_.spacing; }
 
-std::int32_t BodyOwners::next_owner(std::size_t body, const Vec3<double>& position)
+std::int32_t BodyOwners::next_owner(const contact::BorderBody& ball)
 {
-    const std::int32_t own     = communicator_.rank();
-    const double       near_by = std::min(slack(), bounding_radius_[body]);
-    return ownership_->around(position, {near_by, 0}).owner_before_all(own);
+    const double near_by = std::min(slack(), ball.radius);
+    return ownership_->around(ball.position, {near_by, 0}).owner_before_all(communicator_.rank());
 }
 
 BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
@@ -111,67 +137,71 @@ BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
     const std::vector<std::int32_t> all  = every_rank(communicator_);
     std::vector<std::int32_t>       holders;
     BorderDecisions                 found;
-    for (std::size_t i = 0; i < bodies.body.size(); ++i)
+    for (std::size_t i = 0; i < bodies.row.size(); ++i)
     {
-        const std::int32_t         body = bodies.body[i];
+        const auto                 body = static_cast<std::int32_t>(numbers_.number(bodies.row[i]));
         const auto                 b    = static_cast<std::size_t>(body);
         const contact::BorderBody& ball = bodies.ball[i];
-        if (is_jointed_[b] != 0)
+        if (b < is_jointed_.size() && is_jointed_[b] != 0)
         {
-            if (all.size() > 1) { found.shared.add({body, next_owner(b, ball.position), all}); }
+            if (all.size() > 1) { found.shared.add({body, next_owner(ball), all}); }
             continue;
         }
         const decomp::Vicinity around = ownership_->around(ball.position, ball.reach);
         const mpm::Reach       clear  = around.clear_of_others(here);
         if (clear.bodies > 0)
         {
-            found.inside.push_back(body);
+            found.inside.push_back(bodies.row[i]);
             found.clear.push_back({ball.position, clear});
             continue;
         }
         around.find_owners(holders);
         if (holders.size() == 1 && holders.front() == here) { continue; }
-        found.shared.add({body, next_owner(b, ball.position), holders});
+        found.shared.add({body, next_owner(ball), holders});
     }
     return found;
 }
 
-RoleChanges BodyOwners::take_roles(const BodyHoldings& decided, const BodyHoldings& held)
+std::optional<RowChange> BodyOwners::take_roles(const BodyHoldings& decided, const BodyHoldings& held,
+                                                UnheldRows unheld)
 {
-    std::vector<std::int32_t> mine, before; // decided about; these, and ghosts
-    for (const BodyHolding& body : decided) { mine.push_back(body.body); }
-    std::set_union(ghosts_.begin(), ghosts_.end(), mine.begin(), mine.end(), std::back_inserter(before));
-    ghosts_.clear();
-
-    RoleChanges changes;
-    const auto  take = [&](std::int32_t body, std::int32_t role)
+    const std::vector<std::int32_t> before = numbers_.all();
+    std::vector<std::int32_t>       numbers, roles;
+    auto                            next      = held.begin();
+    auto                            mine      = decided.begin();
+    const auto                      take_held = [&]
     {
-        std::int32_t& present = role_[static_cast<std::size_t>(body)];
-        if (present == role) { return; }
-        owned_.add(body, present, -1);
-        owned_.add(body, role, 1);
-        present = role;
-        changes.body.push_back(body);
-        changes.role.push_back(role);
+        numbers.push_back((*next).body);
+        roles.push_back((*next).owner == communicator_.rank() ? dem::role_owner : dem::role_ghost);
+        ++next;
     };
-    auto next = before.begin();
-    for (const BodyHolding& body : held)
+    for (std::size_t row = 0; row < before.size(); ++row)
     {
-        for (; next != before.end() && *next < body.body; ++next) { take(*next, dem::role_none); }
-        if (next != before.end() && *next == body.body) { ++next; }
-        const bool own = body.owner == communicator_.rank();
-        take(body.body, own ? dem::role_owner : dem::role_ghost);
-        if (!own) { ghosts_.push_back(body.body); }
+        const std::int32_t body = before[row];
+        while (next != held.end() && (*next).body < body) { take_held(); }
+        while (mine != decided.end() && (*mine).body < body) { ++mine; }
+        if (next != held.end() && (*next).body == body)
+        {
+            take_held();
+            continue;
+        }
+        const bool left = role_[row] == dem::role_ghost || (mine != decided.end() && (*mine).body == body);
+        const auto role = left ? static_cast<std::int32_t>(dem::role_none) : role_[row];
+        if (role == dem::role_none && unheld == UnheldRows::go && body >= always_) { continue; }
+        numbers.push_back(body);
+        roles.push_back(role);
     }
-    for (; next != before.end(); ++next) { take(*next, dem::role_none); }
-    return changes;
+    while (next != held.end()) { take_held(); }
+    std::optional<RowChange> change = change_between(before, numbers);
+    set(std::move(numbers), std::move(roles));
+    return change;
 }
 
 std::optional<double> BodyOwners::sum_if_complete(double value) const
 {
     double sums[] = {owned_.count, owned_.sum, value};
     decomp::combine(communicator_, sums, 3, 0);
-    const auto all = static_cast<double>(role_.size());
+    const auto all = static_cast<double>(numbers_.bodies());
     if (sums[0] != all || sums[1] != all * (all - 1) / 2) { return std::nullopt; }
     return sums[2];
 }
@@ -187,14 +217,13 @@ bool BodyOwners::owner_has_changed(const BodyHoldings& decided) const
     return *of_all > 0;
 }
 
-bool BodyOwners::owns(std::int64_t body) const { return role_[static_cast<std::size_t>(body)] == dem::role_owner; }
-
 std::vector<std::int32_t> BodyOwners::owned() const
 {
     std::vector<std::int32_t> bodies;
-    for (std::size_t b = 0; b < role_.size(); ++b)
+    for (std::size_t row = 0; row < role_.size(); ++row)
     {
-        if (role_[b] == dem::role_owner) { bodies.push_back(static_cast<std::int32_t>(b)); }
+        if (role_[row] != dem::role_owner) { continue; }
+        bodies.push_back(static_cast<std::int32_t>(numbers_.number(static_cast<std::int64_t>(row))));
     }
     return bodies;
 }

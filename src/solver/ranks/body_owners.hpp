@@ -7,7 +7,9 @@
 #include "decomp/page_map.hpp"
 #include "decomp/page_ownership.hpp"
 #include "kernels/contact/borders.hpp"
+#include "kernels/dem/bodies.hpp"
 #include "solver/ranks/body_holding.hpp"
+#include "solver/ranks/body_numbers.hpp"
 #include "world/world.hpp"
 
 namespace tread::solver
@@ -16,7 +18,7 @@ namespace tread::solver
 /// Bodies that the owners decide about, and the ball of each within which other ranks matter.
 struct BodiesAtBorders
 {
-    std::vector<std::int32_t>  body;
+    std::vector<std::int32_t>  row;
     const contact::BorderBody* ball; ///< of each
 };
 
@@ -24,21 +26,22 @@ struct BodiesAtBorders
 struct BorderDecisions
 {
     BodyHoldings                    shared; ///< of bodies that this rank owned and does not hold alone from now on
-    std::vector<std::int32_t>       inside; ///< bodies that reach no page of another rank
+    std::vector<std::int32_t>       inside; ///< rows of bodies that reach no page of another rank
     std::vector<contact::Clearance> clear;  ///< of each of these
 };
 
-/// Bodies whose role on this rank has changed, ascending.
-struct RoleChanges
+/// What becomes of the rows of bodies that a rank does not hold any more.
+enum class UnheldRows
 {
-    std::vector<std::int32_t> body;
-    std::vector<std::int32_t> role; ///< dem::BodyRole
+    go,
+    stay ///< lists of this step may still name them
 };
 
-/// Roles of this rank for the bodies of a scene, and the decision who owns and who holds each body, on the host. A body
+/// Bodies of this rank and its roles for them, and the decision who owns and who holds each body, on the host. A body
 /// is owned by the rank of the page that holds its centre when pairs are found. Ranks whose pages it may reach before
 /// the next search, enlarged by the largest search radius of any other body, hold it as a ghost, and so do those whose
-/// sand it may touch.
+/// sand it may touch. Named bodies (or the first, where there is none) have rows on every rank. BodyHoldings and
+/// owned() have numbers of bodies.
 class BodyOwners
 {
 public:
@@ -55,17 +58,22 @@ public:
     /// PageMap::changes() at the last follow_pages().
     std::int64_t pages_version() const { return pages_version_; }
 
-    /// Gives each body to the owner of its page; there are no ghosts.
-    void assign(const std::vector<Vec3<double>>& position);
+    /// Gives each body to the owner of its page at the start; there are no ghosts. Bodies that touch them then have
+    /// rows, too.
+    void assign(const world::World& world);
 
-    /// Takes the bodies that this rank owned when a state was saved, and the holders of those that it shared.
-    void restore(const std::vector<std::int32_t>& owned, const BodyHoldings& held);
+    /// Gives every body a row; owners stay, and there are no ghosts.
+    void take_all();
+
+    /// Takes the bodies that this rank had rows for when a state was saved, those of them that it owned, and the
+    /// holders of those that it shared.
+    void restore(std::vector<std::int32_t> numbers, const std::vector<std::int32_t>& owned, const BodyHoldings& held);
 
     /// Decides about bodies that this rank has owned until now. All others stay with it alone.
     BorderDecisions decide(const BodiesAtBorders& bodies);
 
-    /// Takes the roles of exchanged decisions.
-    RoleChanges take_roles(const BodyHoldings& decided, const BodyHoldings& held);
+    /// Takes the roles and rows of exchanged decisions; returns how rows change, empty where they do not.
+    std::optional<RowChange> take_roles(const BodyHoldings& decided, const BodyHoldings& held, UnheldRows unheld);
 
     /// m, how far a body may be from a page that it is said to reach, so that it does not change hands at every search.
     double slack() const;
@@ -77,10 +85,15 @@ public:
     /// together do not own every body once.
     bool owner_has_changed(const BodyHoldings& decided) const;
 
-    /// dem::BodyRole of every body.
+    const BodyNumbers& numbers() const { return numbers_; }
+
+    /// Number of the scene's first bodies, which have rows on every rank.
+    std::int32_t always() const { return always_; }
+
+    /// dem::BodyRole of every row.
     const std::vector<std::int32_t>& roles() const { return role_; }
 
-    bool                      owns(std::int64_t body) const;
+    bool owns(std::int64_t row) const { return role_[static_cast<std::size_t>(row)] == dem::role_owner; }
     std::vector<std::int32_t> owned() const; ///< ascending
     double                    count() const { return owned_.count; }
 
@@ -90,7 +103,8 @@ public:
 private:
     void         follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks,
                         const std::vector<std::uint8_t>& sand, std::int64_t version);
-    std::int32_t next_owner(std::size_t body, const Vec3<double>& position);
+    std::int32_t next_owner(const contact::BorderBody& ball);
+    void         set(std::vector<std::int32_t> numbers, std::vector<std::int32_t> roles);
 
     /// Sum over ranks of a value; empty if the ranks together do not own every body once. Collective.
     std::optional<double> sum_if_complete(double value) const;
@@ -100,18 +114,16 @@ private:
     {
         double count = 0;
         double sum   = 0;
-
-        void add(std::int32_t body, std::int32_t role, double sign);
     };
 
     const Communicator&                  communicator_;
     decomp::PageLattice                  lattice_;
     std::int64_t                         pages_version_ = 0; ///< of the page map that `ownership_` was built from
     std::optional<decomp::PageOwnership> ownership_;
-    std::vector<double>                  bounding_radius_; ///< m, by body
-    std::vector<std::int32_t>            role_;            ///< by body
-    std::vector<std::uint8_t>            is_jointed_;      ///< by body: 1 = every rank holds it, and solves its joints
-    std::vector<std::int32_t>            ghosts_;          ///< bodies with that role, ascending
+    BodyNumbers                          numbers_;
+    std::vector<std::int32_t>            role_;       ///< by row
+    std::vector<std::uint8_t>            is_jointed_; ///< by named body: 1 = every rank holds it, and solves its joints
+    std::int32_t                         always_;     ///< number of first bodies with rows on every rank
     Owned                                owned_;
 };
 

@@ -8,32 +8,78 @@
 #include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/messages.hpp"
-#include "solver/bodies/bounding_radii.hpp"
+#include "solver/ranks/over_ranks.hpp"
 #include "solver/ranks/page_loads.hpp"
+#include "solver/ranks/row_arrays.hpp"
 
 namespace tread::solver
 {
+namespace
+{
+
+/// All of a body's state that other ranks need, of which some never changes.
+template<class Exec>
+decomp::Columns state_columns(const RowArrays<Exec>& arrays)
+{
+    const dem::BodiesView view = arrays.bodies.view();
+    return decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.mass,
+                           view.inertia, view.scale, view.shape, view.material, view.locked, view.damped, view.force,
+                           view.torque, view.stiffness, arrays.pairs.displacement.allowed.data(),
+                           arrays.pairs.sizes.node_area.data(), arrays.pairs.sizes.is_large.data(),
+                           arrays.bounding_radii.data());
+}
+
+/// Rows without one before get the values of the first.
+std::vector<std::int32_t> any_for_new(std::vector<std::int32_t> from)
+{
+    for (std::int32_t& row : from) { row = std::max(row, 0); }
+    return from;
+}
+
+std::vector<std::int32_t> negative(const std::vector<std::int32_t>& values)
+{
+    std::vector<std::int32_t> places;
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+        if (values[i] < 0) { places.push_back(static_cast<std::int32_t>(i)); }
+    }
+    return places;
+}
+
+} // namespace
 
 template<class Exec>
-BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach,
-                           dem::Bodies<Exec>& bodies)
+BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach)
     : decomposition_(decomposition)
     , exec_(decomposition.transport.exec())
     , sand_reach_(sand_reach)
     , owners_(decomposition.communicator, world)
-    , shared_(decomposition.transport, world.bodies.size())
+    , shared_(decomposition.transport)
     , borders_(exec_)
     , border_body_(exec_, "bodies at borders on the host")
     , border_ball_(exec_, "balls of bodies at borders on the host")
-    , records_(exec_, world.bodies.size())
+    , records_(exec_)
     , states_(decomposition.transport, "states of bodies")
     , arriving_(exec_, "bodies arriving")
 {
     owners_.follow_pages(decomposition.owners);
-    owners_.assign(world.bodies.position);
+    owners_.assign(world);
+}
+
+template<class Exec>
+void BodyRanks<Exec>::take_all()
+{
+    owners_.take_all();
+    held_ = {};
+}
+
+template<class Exec>
+void BodyRanks<Exec>::write_rows(dem::Bodies<Exec>& bodies)
+{
     bodies.role.assign(owners_.roles());
-    contact::begin_borders(exec_, borders_, bounding_radii(world));
-    shared_.plan({}, communicator());
+    bodies.number.assign(numbers().all());
+    contact::begin_borders(exec_, borders_, bodies.position.size());
+    shared_.plan(held_, numbers(), communicator());
 }
 
 template<class Exec>
@@ -45,20 +91,69 @@ void BodyRanks<Exec>::sum_wanted_displacement(dem::Pairs<Exec>& pairs) const
 }
 
 template<class Exec>
-void BodyRanks<Exec>::assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
+void BodyRanks<Exec>::assign_owners(const RowArrays<Exec>& arrays, UnheldRows unheld)
 {
+    // 1. Owners decide, and tell the holders.
     if (pages_have_changed()) { follow_pages(); }
-    const BodyHoldings    decided   = decide(bodies, pairs);
-    ExchangedHoldings     exchanged = exchange_holdings(communicator(), decided);
-    const dem::BodiesView view      = bodies.view();
-    send_states(states_to_send(decided), exchanged.arriving,
-                decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.force,
-                                view.torque, view.stiffness, view.locked, pairs.displacement.allowed.data()));
-    const RoleChanges changes = owners_.take_roles(decided, exchanged.held);
-    contact::set_roles(exec_, borders_, changes.body, changes.role, bodies);
-    if (owners_.owner_has_changed(decided)) { records_.run(communicator(), pairs, is_large_, decided); }
+    const BodyHoldings decided   = decide(arrays);
+    ExchangedHoldings  exchanged = exchange_holdings(communicator(), decided);
+    const bool         migrate   = owners_.owner_has_changed(decided);
+    // 2. States and contact records leave from the rows before.
+    plan_states(decided, exchanged.arriving);
+    states_.begin(state_columns(arrays));
+    if (migrate) { records_.take(communicator(), arrays.pairs, numbers(), decided); }
+    // 3. Rows go and come.
+    moves_.reset();
+    std::optional<RowChange> change = owners_.take_roles(decided, exchanged.held, unheld);
+    if (change) { move_rows(arrays, std::move(*change)); }
+    arrays.bodies.role.assign(owners_.roles());
+    // 4. States and records arrive.
+    arriving_.assign(numbers().rows_of(joined(exchanged.arriving)));
+    states_.finish(state_columns(arrays), arriving_);
+    if (migrate) { records_.send(communicator(), arrays.pairs, numbers()); }
+    if (moves_) { dem::list_large_bodies(exec_, arrays.pairs); }
     held_ = std::move(exchanged.held);
-    shared_.plan(held_, communicator());
+    shared_.plan(held_, numbers(), communicator());
+}
+
+/// Plans the exchange of the states of bodies that others hold.
+template<class Exec>
+void BodyRanks<Exec>::plan_states(const BodyHoldings& decided, const RankLists& arriving)
+{
+    RankLists leaving(static_cast<std::size_t>(communicator().size()));
+    for (const BodyHolding& body : decided)
+    {
+        for (const std::int32_t holder : body.holders)
+        {
+            if (holder != communicator().rank()) { leaving[static_cast<std::size_t>(holder)].push_back(body.body); }
+        }
+    }
+    states_.plan(numbers().rows_of(joined(leaving)), routes_of(leaving), routes_of(arriving));
+}
+
+template<class Exec>
+void BodyRanks<Exec>::move_rows(const RowArrays<Exec>& arrays, RowChange change)
+{
+    RowMoves<Exec>&                 moves = moves_.emplace(exec_);
+    const std::vector<std::int32_t> come  = negative(change.from);
+    moves.gone                            = negative(change.to);
+    moves.from.assign(any_for_new(std::move(change.from)));
+    moves.to.assign(change.to);
+    const auto take = [&](auto& array) { take_rows(exec_, moves.from, array); };
+    arrays.bodies.for_each_field(
+        [&](std::string_view field, auto& array)
+        {
+            if (field != "weight") { take(array); } // of named bodies, whose rows stay
+        });
+    take(arrays.pairs.displacement.allowed);
+    take(arrays.pairs.sizes.node_area);
+    take(arrays.pairs.sizes.is_large);
+    take(arrays.bounding_radii);
+    take(borders_.clear);
+    contact::keep_clearances(exec_, borders_, come, std::vector<contact::Clearance>(come.size()));
+    arrays.pairs.displacement.search_radius.resize(moves.from.size());
+    arrays.bodies.number.assign(numbers().all());
+    dem::renumber_records(exec_, arrays.pairs, moves.to, moves.from.size());
 }
 
 template<class Exec>
@@ -69,11 +164,11 @@ void BodyRanks<Exec>::follow_pages()
 }
 
 template<class Exec>
-void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
+void BodyRanks<Exec>::transfer(StateFile& file)
 {
-    const std::int32_t        here  = communicator().rank();
-    const std::size_t         count = owners_.roles().size();
-    std::vector<std::int32_t> owned = owners_.owned();
+    const std::int32_t        here    = communicator().rank();
+    const std::size_t         count   = numbers().bodies();
+    std::vector<std::int32_t> present = numbers().all(), owned = owners_.owned();
     BodyHoldings              own;
     for (const BodyHolding& body : held_)
     {
@@ -82,41 +177,57 @@ void BodyRanks<Exec>::transfer(StateFile& file, dem::Bodies<Exec>& bodies)
     std::vector<std::int32_t> words   = own.words();
     bool                      follows = !pages_have_changed();
 
+    const auto among = [](const std::vector<std::int32_t>& all)
+    { return [&all](std::int32_t body) { return std::binary_search(all.begin(), all.end(), body); }; };
     const auto held = [&](const std::vector<std::int32_t>& values) -> accept::Verdict
     {
         const auto read   = read_holdings(values, here, communicator().size(), count);
         bool       is_own = read.has_value();
-        for (const BodyHolding& body : read.value_or(BodyHoldings()))
-        {
-            is_own = is_own && std::binary_search(owned.begin(), owned.end(), body.body);
-        }
+        for (const BodyHolding& body : read.value_or(BodyHoldings())) { is_own = is_own && among(owned)(body.body); }
         if (is_own) { return {}; }
         return accept::Refusal{-1, "other words", "body, owner, number of holders and holders of shared bodies"};
     };
-    file.own("ranks/body", owned, accept::all(accept::index(count), accept::ascending(), accept::distinct()));
+    const auto numbers_of_bodies = accept::all(accept::index(count), accept::ascending(), accept::distinct());
+    const auto has_first         = [&](const std::vector<std::int32_t>& rows) -> accept::Verdict
+    {
+        const auto first = static_cast<std::size_t>(owners_.always());
+        if (rows.size() >= first && rows[first - 1] == owners_.always() - 1) { return {}; }
+        return accept::Refusal{-1, "other bodies", fmt::format("the first {} among them", first)};
+    };
+    file.own("ranks/row", present, accept::all(numbers_of_bodies, has_first));
+    file.own("ranks/body", owned, accept::all(numbers_of_bodies, accept::each("a body with a row", among(present))));
     file.own("ranks/holders", words, held);
     file.numbers("ranks/follows_pages", follows);
     if (!file.loads()) { return; }
 
     held_ = exchange_holdings(communicator(), read_holdings(words, here, communicator().size(), count).value()).held;
-    owners_.restore(owned, held_);
+    check_on_ranks(&communicator(),
+                   [&]
+                   {
+                       for (const BodyHolding& body : held_)
+                       {
+                           if (among(present)(body.body)) { continue; }
+                           file.refuse("ranks/row", {-1, fmt::format("no row of body {}", body.body),
+                                                     "a row of each body that the rank holds"});
+                       }
+                   });
+    owners_.restore(std::move(present), owned, held_);
     if (!owners_.are_complete())
     {
         file.refuse("ranks/body", {-1, "other bodies", fmt::format("each of {} bodies on one rank", count)});
     }
-    bodies.role.assign(owners_.roles());
-    shared_.plan(held_, communicator());
-    if (follows) { follow_pages(); }
+    if (follows) { owners_.follow_pages(decomposition_.owners); }
 }
 
 template<class Exec>
-BodyHoldings BodyRanks<Exec>::decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs)
+BodyHoldings BodyRanks<Exec>::decide(const RowArrays<Exec>& arrays)
 {
-    if (is_large_.empty()) { is_large_ = pairs.sizes.is_large.to_host(); }
-    std::array<double, 2> met = contact::largest_reaches(exec_, borders_, pairs, bodies.view());
+    const dem::BodiesView view   = arrays.bodies.view();
+    const double*         radii  = arrays.bounding_radii.data();
+    std::array<double, 2> met    = contact::largest_reaches(exec_, radii, arrays.pairs, view);
     decomp::combine(communicator(), met.data(), 0, 2);
     const double slack = owners_.slack();
-    contact::list_borders(exec_, borders_, pairs, bodies.view(), {met[0] + slack, met[1] + slack, sand_reach_});
+    contact::list_borders(exec_, borders_, radii, arrays.pairs, view, {met[0] + slack, met[1] + slack, sand_reach_});
     border_body_.request(borders_.body);
     border_ball_.request(borders_.ball);
     synchronize(exec_);
@@ -124,30 +235,6 @@ BodyHoldings BodyRanks<Exec>::decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>
         owners_.decide({{border_body_.data(), border_body_.data() + borders_.body.size()}, border_ball_.data()});
     contact::keep_clearances(exec_, borders_, decided.inside, decided.clear);
     return std::move(decided.shared);
-}
-
-/// Bodies whose state this rank sends, by destination.
-template<class Exec>
-RankLists BodyRanks<Exec>::states_to_send(const BodyHoldings& decided) const
-{
-    RankLists lists(static_cast<std::size_t>(communicator().size()));
-    for (const BodyHolding& body : decided)
-    {
-        for (const std::int32_t holder : body.holders)
-        {
-            if (holder != communicator().rank()) { lists[static_cast<std::size_t>(holder)].push_back(body.body); }
-        }
-    }
-    return lists;
-}
-
-template<class Exec>
-void BodyRanks<Exec>::send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns)
-{
-    arriving_.assign(joined(arriving));
-    states_.plan(joined(leaving), routes_of(leaving), routes_of(arriving));
-    states_.begin(columns);
-    states_.finish(columns, arriving_);
 }
 
 template<class Exec>
@@ -160,9 +247,9 @@ template<class Exec>
 void BodyRanks<Exec>::add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const
 {
     const std::vector<Vec3<double>> position = bodies.position.to_host();
-    for (const std::int32_t body : owners_.owned())
+    for (std::size_t row = 0; row < position.size(); ++row)
     {
-        loads[owners_.page_of(position[static_cast<std::size_t>(body)])] += body_load;
+        if (owns(static_cast<std::int64_t>(row))) { loads[owners_.page_of(position[row])] += body_load; }
     }
 }
 

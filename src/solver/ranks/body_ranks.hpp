@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "backend/fetched_array.hpp"
@@ -19,6 +20,30 @@
 namespace tread::solver
 {
 
+/// Arrays by row that change ranks with bodies.
+template<class Exec>
+struct RowArrays
+{
+    dem::Bodies<Exec>&   bodies;
+    dem::Pairs<Exec>&    pairs;
+    Array<Exec, double>& bounding_radii; ///< m
+};
+
+/// A change of rows in a backend's memory. Without a row before, `from` names any.
+template<class Exec>
+struct RowMoves
+{
+    explicit RowMoves(const Exec& exec)
+        : from(exec, "rows before")
+        , to(exec, "rows now")
+    {
+    }
+
+    Array<Exec, std::int32_t> from;
+    Array<Exec, std::int32_t> to;
+    std::vector<std::int32_t> gone; ///< rows before whose bodies have gone
+};
+
 /// Distribution of a scene's bodies over the ranks: moves states and contact records to the ranks that BodyOwners
 /// decides on, and keeps SharedBodies in step. Calls are collective unless a comment says otherwise.
 template<class Exec>
@@ -27,8 +52,7 @@ class BodyRanks
 public:
     /// Sets the owners; there are no ghosts before the first assign_owners(). `sand_reach`: m, distance beyond a
     /// body's surface within which the owner of sand must hold the body.
-    BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach,
-              dem::Bodies<Exec>& bodies);
+    BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach);
 
     /// Sums the requested displacements of all ranks' bodies. Call between dem::request_displacement and
     /// dem::allow_displacement.
@@ -36,32 +60,42 @@ public:
 
     /// Moves bodies, with their contact records, to the ranks that now own them, and sends ghosts to the ranks where
     /// they may be in contact. Call between dem::allow_displacement and dem::list_pairs.
-    void assign_owners(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
+    void assign_owners(const RowArrays<Exec>& arrays, UnheldRows unheld);
 
-    /// Saves or loads who owns and who holds which body, as part of an exact state; the owners of pages are loaded
-    /// before.
-    void transfer(StateFile& file, dem::Bodies<Exec>& bodies);
+    /// Saves or loads who has rows, owns and holds which body, as part of an exact state; the owners of pages are
+    /// loaded before. After loading write_rows() is due.
+    void transfer(StateFile& file);
 
     /// Order of the bodies in files; valid until they change owners.
-    BodyBlocks blocks() const { return {communicator(), owners_.owned(), owners_.roles().size()}; }
+    BodyBlocks blocks() const { return {communicator(), owners_.owned(), owners_.numbers()}; }
 
     // Not collective.
+    /// Gives every body a row, for a state whose owners are not known. After it write_rows() is due.
+    void take_all();
+
+    /// Writes roles and numbers of the rows, whose arrays have their size.
+    void write_rows(dem::Bodies<Exec>& bodies);
+
+    /// How the last assign_owners() has changed rows; null where it has not.
+    const RowMoves<Exec>* row_moves() const { return moves_ ? &*moves_ : nullptr; }
+
     /// Predicted work of this rank's bodies, in points, in total and by page.
     double load() const;
     void   add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const;
 
     bool pages_have_changed() const { return owners_.pages_version() != decomposition_.owners.changes(); }
-    bool owns(std::int64_t body) const { return owners_.owns(body); }
+    bool owns(std::int64_t row) const { return owners_.owns(row); }
 
+    const BodyNumbers&  numbers() const { return owners_.numbers(); }
     SharedBodies<Exec>& shared() { return shared_; }
     bool                shares() const { return shared_.count() > 0; }
     const Communicator& communicator() const { return decomposition_.communicator; }
 
 private:
     void         follow_pages();
-    BodyHoldings decide(dem::Bodies<Exec>& bodies, dem::Pairs<Exec>& pairs);
-    RankLists    states_to_send(const BodyHoldings& decided) const;
-    void         send_states(const RankLists& leaving, const RankLists& arriving, const decomp::Columns& columns);
+    BodyHoldings decide(const RowArrays<Exec>& arrays);
+    void         plan_states(const BodyHoldings& decided, const RankLists& arriving);
+    void         move_rows(const RowArrays<Exec>& arrays, RowChange change);
 
     decomp::Decomposition<Exec>&            decomposition_;
     Exec                                    exec_;
@@ -72,10 +106,10 @@ private:
     contact::Borders<Exec>                  borders_;
     FetchedArray<Exec, std::int32_t>        border_body_;
     FetchedArray<Exec, contact::BorderBody> border_ball_;
-    std::vector<std::int32_t>               is_large_; ///< by body, from Pairs; empty before assign_owners()
     RecordMigration<Exec>                   records_;
     decomp::Exchange<Exec>                  states_;
     Array<Exec, std::int32_t>               arriving_;
+    std::optional<RowMoves<Exec>>           moves_;
 };
 
 } // namespace tread::solver

@@ -48,13 +48,14 @@ dem::RecordRows<Exec> rows_of(const Exec& exec, const Records& records)
     return rows;
 }
 
-/// Destination rank of every body that leaves.
-std::map<std::int64_t, std::size_t> destinations(const BodyHoldings& decided, std::int32_t here)
+/// Destination rank of every row whose body leaves.
+std::map<std::int64_t, std::size_t> destinations(const BodyHoldings& decided, const BodyNumbers& numbers,
+                                                 std::int32_t here)
 {
     std::map<std::int64_t, std::size_t> moved;
     for (const BodyHolding& body : decided)
     {
-        if (body.owner != here) { moved[body.body] = static_cast<std::size_t>(body.owner); }
+        if (body.owner != here) { moved[numbers.find_row(body.body).value()] = static_cast<std::size_t>(body.owner); }
     }
     return moved;
 }
@@ -68,50 +69,56 @@ std::int64_t deciding_body(const std::vector<std::int32_t>& is_large, std::uint6
 }
 
 template<class Exec>
-RecordMigration<Exec>::RecordMigration(const Exec& exec, std::size_t bodies)
+RecordMigration<Exec>::RecordMigration(const Exec& exec)
     : exec_(exec)
     , body_(exec, "leaving bodies")
-    , leaving_(exec, "marks of leaving bodies")
+    , marks_(exec, "marks of leaving bodies")
 {
-    leaving_.assign(std::vector<std::int32_t>(bodies, -1));
 }
 
 template<class Exec>
-void RecordMigration<Exec>::run(const Communicator& communicator, dem::Pairs<Exec>& pairs,
-                                const std::vector<std::int32_t>& is_large, const BodyHoldings& decided)
+void RecordMigration<Exec>::take(const Communicator& communicator, dem::Pairs<Exec>& pairs, const BodyNumbers& numbers,
+                                 const BodyHoldings& decided)
 {
-    const auto moved      = destinations(decided, communicator.rank());
-    const bool has_places = communicator.maximum(pairs.patches.last_place.size() == 0 ? 0 : 1) > 0;
+    leaving_.assign(static_cast<std::size_t>(communicator.size()), {});
+    const auto moved = destinations(decided, numbers, communicator.rank());
+    if (moved.empty()) { return; }
+    std::vector<std::int32_t> rows;
+    rows.reserve(moved.size());
+    for (const auto& [row, rank] : moved) { rows.push_back(static_cast<std::int32_t>(row)); }
+    body_.assign(rows);
+    marks_.resize(static_cast<std::int64_t>(numbers.rows()));
+    contact::forget_places(exec_, marks_);
+    contact::write_places(exec_, body_, marks_);
+    const std::vector<std::int32_t> is_large = pairs.sizes.is_large.to_host();
+    for (world::ContactRecord record : on_host(dem::take_records(exec_, pairs, marks_)))
+    {
+        Records& to = leaving_[moved.at(deciding_body(is_large, record.key))];
+        record.key  = numbers.key_in_scene(record.key);
+        to.push_back(record);
+    }
+}
 
-    std::vector<Records> leaving(static_cast<std::size_t>(communicator.size()));
-    for (const world::ContactRecord& record : take(pairs, moved))
+template<class Exec>
+void RecordMigration<Exec>::send(const Communicator& communicator, dem::Pairs<Exec>& pairs, const BodyNumbers& numbers)
+{
+    const bool has_places = communicator.maximum(pairs.patches.last_place.size() == 0 ? 0 : 1) > 0;
+    Records    all;
+    for (const Records& arriving : decomp::exchange_values(communicator, leaving_))
     {
-        leaving[moved.at(deciding_body(is_large, record.key))].push_back(record);
+        for (world::ContactRecord record : arriving)
+        {
+            const auto key = numbers.find_key(record.key);
+            if (!key) { continue; } // the other body is out of reach
+            record.key = *key;
+            all.push_back(record);
+        }
     }
-    Records all;
-    for (const Records& arriving : decomp::exchange_values(communicator, leaving))
-    {
-        all.insert(all.end(), arriving.begin(), arriving.end());
-    }
+    leaving_.clear();
     dem::RecordRows<Exec> rows = rows_of(exec_, all);
     if (!pairs.resists_rolling) { rows.rolling.resize(0); }
     if (!has_places) { rows.place.resize(0); }
     dem::add_records(exec_, pairs, rows);
-}
-
-template<class Exec>
-std::vector<world::ContactRecord> RecordMigration<Exec>::take(dem::Pairs<Exec>&                          pairs,
-                                                              const std::map<std::int64_t, std::size_t>& moved)
-{
-    if (moved.empty()) { return {}; }
-    std::vector<std::int32_t> bodies;
-    bodies.reserve(moved.size());
-    for (const auto& [body, rank] : moved) { bodies.push_back(static_cast<std::int32_t>(body)); }
-    body_.assign(bodies);
-    contact::write_places(exec_, body_, leaving_);
-    Records records = on_host(dem::take_records(exec_, pairs, leaving_));
-    contact::erase_places(exec_, body_, leaving_);
-    return records;
 }
 
 #define TREAD_INSTANTIATE(Exec) template class RecordMigration<Exec>

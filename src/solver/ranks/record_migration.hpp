@@ -1,19 +1,20 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "base/communicator.hpp"
 #include "kernels/contact/borders.hpp"
 #include "kernels/dem/pairs/records.hpp"
 #include "solver/ranks/body_holding.hpp"
+#include "solver/ranks/body_numbers.hpp"
 #include "world/world.hpp"
 
 namespace tread::solver
 {
 
-/// Body of a pair whose owner evaluates the contact. `is_large`: dem::BodySizes::is_large, one entry per body.
+/// Row of the body of a pair of rows whose owner evaluates the contact. `is_large`: dem::BodySizes::is_large, one entry
+/// per body.
 std::int64_t deciding_body(const std::vector<std::int32_t>& is_large, std::uint64_t key);
 
 /// Contact records migrate with the body whose owner evaluates the contact. Only those reach the host.
@@ -21,19 +22,21 @@ template<class Exec>
 class RecordMigration
 {
 public:
-    RecordMigration(const Exec& exec, std::size_t bodies);
+    explicit RecordMigration(const Exec& exec);
 
-    /// Sends records of the previous list (Pairs::last) to the new owners of bodies that leave this rank, and merges
-    /// those that arrive. Collective.
-    void run(const Communicator& communicator, dem::Pairs<Exec>& pairs, const std::vector<std::int32_t>& is_large,
-             const BodyHoldings& decided);
+    /// Takes the records of the previous list (Pairs::last) that go to the new owners of bodies that leave this rank.
+    /// `numbers`: of the present rows.
+    void take(const Communicator& communicator, dem::Pairs<Exec>& pairs, const BodyNumbers& numbers,
+              const BodyHoldings& decided);
+
+    /// Sends them, and merges those that arrive. `numbers`: of the rows now. Collective.
+    void send(const Communicator& communicator, dem::Pairs<Exec>& pairs, const BodyNumbers& numbers);
 
 private:
-    std::vector<world::ContactRecord> take(dem::Pairs<Exec>& pairs, const std::map<std::int64_t, std::size_t>& moved);
-
-    Exec                      exec_;
-    Array<Exec, std::int32_t> body_;
-    Array<Exec, std::int32_t> leaving_; ///< per body, its place in body_; -1: it stays
+    Exec                                           exec_;
+    Array<Exec, std::int32_t>                      body_;
+    Array<Exec, std::int32_t>                      marks_;   ///< by row, its place in body_; -1: it stays
+    std::vector<std::vector<world::ContactRecord>> leaving_; ///< by rank; keys are those of the scene
 };
 
 } // namespace tread::solver

@@ -55,7 +55,7 @@ void number_shares(SharingPlan& plan, const BodyHoldings& held, std::size_t rank
 } // namespace
 
 template<class Exec>
-SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport, std::size_t bodies)
+SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport)
     : body_(transport.exec(), "shared bodies")
     , place_(transport.exec(), "places of shared bodies")
     , first_(transport.exec(), "shares of bodies")
@@ -64,18 +64,18 @@ SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport, std::size_t
     , stiffness_(transport, "shares of stiffness")
     , speed_(transport, "shares of speeds")
 {
-    place_.assign(std::vector<std::int32_t>(bodies, -1));
 }
 
 template<class Exec>
-void SharedBodies<Exec>::plan(const BodyHoldings& held, const Communicator& communicator)
+void SharedBodies<Exec>::plan(const BodyHoldings& held, const BodyNumbers& numbers, const Communicator& communicator)
 {
     const auto  rank  = static_cast<std::size_t>(communicator.rank());
     SharingPlan found = list_bodies(held, static_cast<std::size_t>(communicator.size()));
     found.rows[rank].clear();
     number_shares(found, held, rank);
-    contact::erase_places(place_.exec(), body_, place_);
-    body_.assign(found.body);
+    body_.assign(numbers.rows_of(found.body));
+    place_.resize(static_cast<std::int64_t>(numbers.rows()));
+    contact::forget_places(place_.exec(), place_);
     contact::write_places(place_.exec(), body_, place_);
     first_.assign(found.first);
     row_.assign(found.share);

@@ -6,6 +6,7 @@
 #include "decomp/exchange.hpp"
 #include "kernels/dem/motion/shared.hpp"
 #include "solver/ranks/body_holding.hpp"
+#include "solver/ranks/body_numbers.hpp"
 
 namespace tread::solver
 {
@@ -16,11 +17,10 @@ template<class Exec>
 class SharedBodies
 {
 public:
-    /// `bodies`: number of bodies of the scene; none is shared yet.
-    SharedBodies(decomp::Transport<Exec>& transport, std::size_t bodies);
+    explicit SharedBodies(decomp::Transport<Exec>& transport);
 
     /// Lists the bodies shared on each route, in the same order on both sides. `held`: ascending.
-    void plan(const BodyHoldings& held, const Communicator& communicator);
+    void plan(const BodyHoldings& held, const BodyNumbers& numbers, const Communicator& communicator);
 
     std::int64_t    count() const { return body_.size(); }
     dem::SharedView view();
@@ -46,8 +46,8 @@ private:
     template<class Share>
     void pass_on(Shares<Share>& shares);
 
-    Array<Exec, std::int32_t>   body_;  ///< [count], ascending
-    Array<Exec, std::int32_t>   place_; ///< [bodies], index in body_; -1: not shared
+    Array<Exec, std::int32_t>   body_;  ///< [count], rows, ascending
+    Array<Exec, std::int32_t>   place_; ///< [rows], index in body_; -1: not shared
     Array<Exec, std::int32_t>   first_; ///< [count + 1], first share of each body
     Array<Exec, std::int32_t>   row_;   ///< row of each share
     Shares<dem::WrenchShare>    wrench_;

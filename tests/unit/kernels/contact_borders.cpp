@@ -30,16 +30,24 @@ protected:
         return scene;
     }
 
+    static Array<Exec, double> bounding_radii(const Exec& exec)
+    {
+        Array<Exec, double> radii(exec, "radii");
+        radii.assign(std::vector<double>(4, radius));
+        return radii;
+    }
+
     static contact::Borders<Exec> borders(const Exec& exec)
     {
         contact::Borders<Exec> made(exec);
-        contact::begin_borders(exec, made, std::vector<double>(4, radius));
+        contact::begin_borders(exec, made, 4);
         return made;
     }
 
     static std::vector<std::int32_t> listed(const Exec& exec, Scene& scene, contact::Borders<Exec>& borders)
     {
-        contact::list_borders(exec, borders, scene.pairs, scene.bodies.view(), reach);
+        const Array<Exec, double> radii = bounding_radii(exec);
+        contact::list_borders(exec, borders, radii.data(), scene.pairs, scene.bodies.view(), reach);
         return borders.body.to_host();
     }
 
@@ -101,26 +109,22 @@ TYPED_TEST(Borders, WhatIsInsideStaysOnTheBackend)
 TYPED_TEST(Borders, LargestReachesAreThoseOfOwnBodies)
 {
     auto scene = this->row(this->exec());
-    auto found = this->borders(this->exec());
+    const auto radii = this->bounding_radii(this->exec());
     scene.pairs.displacement.allowed.assign({0.01, 0.03, 0.02, 9.0});
-    const auto largest = contact::largest_reaches(this->exec(), found, scene.pairs, scene.bodies.view());
+    const auto largest =
+        contact::largest_reaches(this->exec(), radii.data(), scene.pairs, scene.bodies.view());
     EXPECT_EQ(largest[0], radius + 0.03);
     EXPECT_EQ(largest[1], radius + 0.02) << "of small ones";
 }
 
-TYPED_TEST(Borders, RolesAndPlacesAreSetOneByOne)
+TYPED_TEST(Borders, PlacesAreSetOneByOne)
 {
-    auto scene = this->row(this->exec());
-    auto found = this->borders(this->exec());
-    contact::set_roles(this->exec(), found, {1, 3}, {dem::role_none, dem::role_owner}, scene.bodies);
-    EXPECT_EQ(scene.bodies.role.to_host(), (Bodies{dem::role_owner, dem::role_none, dem::role_owner, dem::role_owner}));
     Array<TypeParam, std::int32_t> body(this->exec(), "bodies"), place(this->exec(), "places");
-    place.assign({-1, -1, -1, -1});
+    place.assign({4, 5, 6, 7});
+    contact::forget_places(this->exec(), place);
     body.assign({1, 3});
     contact::write_places(this->exec(), body, place);
     EXPECT_EQ(place.to_host(), (Bodies{-1, 0, -1, 1}));
-    contact::erase_places(this->exec(), body, place);
-    EXPECT_EQ(place.to_host(), (Bodies{-1, -1, -1, -1}));
 }
 
 } // namespace contact_borders_test

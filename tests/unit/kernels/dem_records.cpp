@@ -71,6 +71,22 @@ TYPED_TEST(DemRecords, LeaveWithTheBodyThatDecidesAndComeBack)
     EXPECT_EQ(pairs.last.key.to_host(), all);
 }
 
+/// The second of four bodies has gone, one has come before the last; the wall follows them.
+TYPED_TEST(DemRecords, FollowTheRowsOfTheirBodies)
+{
+    SolidScene<TypeParam>  scene(this->exec(), {exact_sphere()}, {solid_sphere(0.1, 2000, {0, 0, 0})}, {});
+    dem::Pairs<TypeParam>& pairs = scene.pairs;
+    pairs.last.key.assign({dem::pair_key(0, 1), dem::pair_key(0, 2) + 1, dem::pair_key(0, 4), dem::pair_key(1, 3),
+                           dem::pair_key(2, 3), dem::pair_key(3, 4)});
+    pairs.last.patch.assign({stiff(0), stiff(1), stiff(2), stiff(3), stiff(4), stiff(5)});
+    Array<TypeParam, std::int32_t> row(this->exec(), "rows");
+    row.assign({0, -1, 1, 3});
+    dem::renumber_records(this->exec(), pairs, row, 4);
+    EXPECT_EQ(pairs.last.key.to_host(), (std::vector<std::uint64_t>{dem::pair_key(0, 1) + 1, dem::pair_key(0, 4),
+                                                                    dem::pair_key(1, 3), dem::pair_key(3, 4)}));
+    EXPECT_EQ(stiffnesses(pairs.last.patch.to_host()), (std::vector<double>{1, 2, 4, 5}));
+}
+
 /// Where nobody here has several patches, and some that arrive do.
 TYPED_TEST(DemRecords, PlacesThatAreMissingAreZero)
 {

@@ -95,7 +95,20 @@ public:
         const auto wall = properties(numbers.young, numbers.poisson, 1, numbers.friction, numbers.zeta);
         properties_.assign({own, wall, wall, wall});
         planes_.assign(numbers.planes);
-        classify_bodies(exec_, pairs, bodies.view(), templates_.data());
+        classify_bodies(exec_, pairs, bodies.view(), templates_.data(), dem::largest_in_grid(bounding_radii()));
+    }
+
+    /// m
+    std::vector<double> bounding_radii() const
+    {
+        const auto          shape = bodies.shape.to_host();
+        const auto          forms = templates_.to_host();
+        std::vector<double> radii = bodies.scale.to_host();
+        for (std::size_t b = 0; b < radii.size(); ++b)
+        {
+            radii[b] *= forms[static_cast<std::size_t>(shape[b])].bounding_radius;
+        }
+        return radii;
     }
 
     dem::BodyLaw law() const

@@ -62,7 +62,7 @@ BodySums sum_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodi
     double* result = pairs.measure.data() + rows;
     for_each(exec, "body sums", bodies.count, WriteBodyRow{bodies, gravity, pairs.measure.data()});
     sum_rows(exec, pairs.measure.data(), bodies.count, body_row_width, result);
-    sum_rows(exec, reinterpret_cast<const double*>(totals.data()), bodies.count, body_total_width,
+    sum_rows(exec, reinterpret_cast<const double*>(totals.data()), totals.size(), body_total_width,
              result + body_row_width);
     sum_rows(exec, pairs.answers.energy.data(), count, 1, result + body_row_width + body_total_width);
 

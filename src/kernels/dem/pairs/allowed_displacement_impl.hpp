@@ -108,7 +108,8 @@ struct WriteAllowed
     double              substeps;
     const double*       speed;
     const double*       per_step;
-    const double*       sum; ///< sum of `per_step`
+    const double*       sum; ///< sum of `per_step`, of all ranks
+    double              all; ///< number of bodies of all ranks
     double*             allowed;
     double*             search_radius;
 
@@ -116,7 +117,7 @@ struct WriteAllowed
     {
         const double radius = bounding_radius(bodies, templates, b);
         const double least  = search_displacement(radius, speed[b], speed[b], dt).least;
-        const double steps  = steps_to_last(*sum / static_cast<double>(bodies.count), substeps);
+        const double steps  = steps_to_last(*sum / all, substeps);
         allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most_per_step));
         search_radius[b]    = is_large[b] != 0 ? 0.0 : radius + allowed[b];
     }
@@ -194,12 +195,13 @@ void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView
 
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                        double substeps)
+                        double substeps, std::int64_t all)
 {
     for_each(exec, "body search radii", bodies.count,
              pair_steps::WriteAllowed{bodies, law.templates, pairs.sizes.is_large.data(), dt, substeps,
                                       pairs.displacement.speed.data(), pairs.displacement.per_step.data(),
-                                      pairs.measure.data(), pairs.displacement.allowed.data(),
+                                      pairs.measure.data(), static_cast<double>(all),
+                                      pairs.displacement.allowed.data(),
                                       pairs.displacement.search_radius.data()});
 }
 

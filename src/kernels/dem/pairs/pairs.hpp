@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "backend/array.hpp"
 #include "backend/sort.hpp"
@@ -281,11 +282,28 @@ struct Pairs
     SortScratch<Exec>       sort;
 };
 
-/// Sorts the bodies by size; call once, and again when bodies are added, removed or reordered. A body more than 4 times
-/// larger than the median is tested against all others instead of entering the cell grid, because it would set the cell
-/// size.
+/// m, bounding radius beyond which a body is tested against all others instead of entering the cell grid, because it
+/// would set the cell size: 4 times the median of `radii`.
+double largest_in_grid(std::vector<double> radii);
+
+/// Sorts the bodies by size: those beyond `largest` (largest_in_grid) are large. Call once, and again when bodies are
+/// added, removed or reordered.
 template<class Exec>
-void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates);
+void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
+                     double largest);
+
+/// Lists the large bodies anew from pairs.sizes.is_large.
+template<class Exec>
+void list_large_bodies(const Exec& exec, Pairs<Exec>& pairs);
+
+/// Forgets which pairs each body has, as rows of bodies have changed altogether.
+template<class Exec>
+void forget_list(Pairs<Exec>& pairs)
+{
+    pairs.of_body.first.fit(0);
+    pairs.of_body.by_second.fit(0);
+    pairs.of_body.second.fit(0);
+}
 
 /// Copies the body data that contacts read. Needed again after anything but move_bodies has changed the bodies;
 /// find_pairs calls it.
@@ -315,10 +333,11 @@ template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                           const SharedView& shared);
 
-/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts.
+/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts. `all`: number of bodies of
+/// all ranks.
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                        double substeps);
+                        double substeps, std::int64_t all);
 
 /// Last part: lists the pairs that this rank evaluates, except those of two sleepers (sleep/sleep.hpp).
 template<class Exec>

@@ -6,6 +6,7 @@
 #include "kernels/dem/contact/contact_nodes.hpp"
 #include "kernels/dem/pairs/allowed_displacement_impl.hpp"
 #include "kernels/dem/pairs/pair_search_impl.hpp"
+#include "kernels/dem/pairs/select.hpp"
 #include "kernels/dem/sleep/sleep.hpp"
 
 // Steps of find_pairs, for both backends; pairs.cpp and pairs.cu provide for_each and instantiate.
@@ -52,6 +53,13 @@ struct MeasureBody
         radius[b]    = scale * shape.bounding_radius;
         node_area[b] = shape.node_count > 0 ? scale * scale * area / shape.node_count : 0.0;
     }
+};
+
+struct IsLarge
+{
+    const std::int32_t* marks;
+
+    TREAD_HD bool operator()(std::int64_t b) const { return marks[b] != 0; }
 };
 
 struct Stage
@@ -285,7 +293,8 @@ void order_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 } // namespace pair_steps
 
 template<class Exec>
-void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates)
+void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const TemplateView* templates,
+                     double largest)
 {
     pairs.measure.resize(bodies.count);
     pairs.sizes.node_area.resize(bodies.count);
@@ -294,19 +303,22 @@ void classify_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bod
     for_each(exec, "body sizes", bodies.count,
              pair_steps::MeasureBody{bodies, templates, pairs.measure.data(), pairs.sizes.node_area.data()});
 
-    const std::vector<double> radii  = pairs.measure.to_host();
-    std::vector<double>       sorted = radii;
-    const auto                middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    if (!sorted.empty()) { std::nth_element(sorted.begin(), middle, sorted.end()); }
-    constexpr double          much_larger = 4;
+    const std::vector<double> radii = pairs.measure.to_host();
     std::vector<std::int32_t> large, marks;
     for (std::size_t b = 0; b < radii.size(); ++b)
     {
-        marks.push_back(radii[b] > much_larger * *middle ? 1 : 0);
+        marks.push_back(radii[b] > largest ? 1 : 0);
         if (marks.back() != 0) { large.push_back(static_cast<std::int32_t>(b)); }
     }
     pairs.sizes.large.assign(large);
     pairs.sizes.is_large.assign(marks);
+}
+
+template<class Exec>
+void list_large_bodies(const Exec& exec, Pairs<Exec>& pairs)
+{
+    select(exec, "large bodies", pairs.sizes.is_large.size(), pair_steps::IsLarge{pairs.sizes.is_large.data()},
+           pairs.search.found, pairs.sort, pairs.sizes.large);
 }
 
 template<class Exec>
@@ -355,7 +367,7 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 {
     begin_list(exec, pairs, bodies, law);
     request_displacement(exec, pairs, bodies, law, dt, {});
-    allow_displacement(exec, pairs, bodies, law, dt, substeps);
+    allow_displacement(exec, pairs, bodies, law, dt, substeps, bodies.count);
     list_pairs(exec, pairs, bodies, law);
 }
 

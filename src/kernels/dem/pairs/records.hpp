@@ -33,4 +33,9 @@ RecordRows<Exec> take_records(const Exec&, Pairs<Exec>& pairs, const Array<Exec,
 template<class Exec>
 void add_records(const Exec&, Pairs<Exec>& pairs, const RecordRows<Exec>& arriving);
 
+/// Gives the bodies of all records their rows after others have come or gone; records of a body that has gone are
+/// dropped. `row`: of each body's row before, its present row, ascending; negative: gone. `rows`: number of rows now.
+template<class Exec>
+void renumber_records(const Exec&, Pairs<Exec>& pairs, const Array<Exec, std::int32_t>& row, std::int64_t rows);
+
 } // namespace tread::dem

@@ -127,6 +127,43 @@ struct WriteOrigin
     }
 };
 
+/// Rows of bodies after others have come or gone.
+struct NewRows
+{
+    std::int64_t        before; ///< number of rows
+    std::int64_t        now;    ///< likewise
+    const std::int32_t* row;    ///< [before]; negative: gone
+
+    /// Of a body or, after all of them, of a wall.
+    TREAD_HD std::int64_t operator()(std::int64_t side) const
+    {
+        return side < before ? row[side] : side - before + now;
+    }
+};
+
+struct IsLeft
+{
+    NewRows              rows;
+    const std::uint64_t* key;
+
+    TREAD_HD bool operator()(std::int64_t p) const
+    {
+        return rows(first_of(key[p])) >= 0 && rows(second_of(key[p])) >= 0;
+    }
+};
+
+struct Renumber
+{
+    NewRows        rows;
+    std::uint64_t* key;
+
+    TREAD_HD void operator()(std::int64_t p) const
+    {
+        const std::uint64_t patch = key[p] - whole_pair(key[p]);
+        key[p]                    = pair_key(rows(first_of(key[p])), rows(second_of(key[p]))) + patch;
+    }
+};
+
 } // namespace tread::dem::record_steps
 
 namespace tread::dem
@@ -163,9 +200,26 @@ void add_records(const Exec& exec, Pairs<Exec>& pairs, const RecordRows<Exec>& a
     put_back(merged, pairs);
 }
 
+template<class Exec>
+void renumber_records(const Exec& exec, Pairs<Exec>& pairs, const Array<Exec, std::int32_t>& row, std::int64_t rows)
+{
+    using namespace record_steps;
+    const NewRows             now{row.size(), rows, row.data()};
+    Array<Exec, std::int32_t> left(exec, "records left");
+    const std::int64_t        records = pairs.last.key.size();
+    select(exec, "records left", records, IsLeft{now, pairs.last.key.data()}, pairs.search.found, pairs.sort, left);
+    if (left.size() < records)
+    {
+        RecordRows<Exec> kept = take_rows(exec, present(pairs), present(pairs), left);
+        put_back(kept, pairs);
+    }
+    for_each(exec, "renumber records", left.size(), Renumber{now, pairs.last.key.data()});
+}
+
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template RecordRows<Exec> take_records(const Exec&, Pairs<Exec>&, const Array<Exec, std::int32_t>&);               \
-    template void             add_records(const Exec&, Pairs<Exec>&, const RecordRows<Exec>&)
+    template void             add_records(const Exec&, Pairs<Exec>&, const RecordRows<Exec>&);                         \
+    template void renumber_records(const Exec&, Pairs<Exec>&, const Array<Exec, std::int32_t>&, std::int64_t)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 
