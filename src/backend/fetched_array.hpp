@@ -5,7 +5,7 @@
 namespace tread
 {
 
-/// Asynchronous copy of an array to the host, into a buffer that is reused. Several requested copies share one
+/// Asynchronous copy of an array to the host, into a buffer that is reused unless it is much too large. Several requested copies share one
 /// synchronization; the buffer of a GPU is pinned memory.
 template<class Exec, class T>
 class FetchedArray
@@ -20,7 +20,7 @@ public:
     /// Enqueues a copy of `from`, as it will be when the backend reaches this point of its stream.
     void request(const Array<Exec, T>& from)
     {
-        values_.resize(from.size());
+        values_.fit(from.size());
         start_copy_to_host(exec_, values_.data(), from.data(), static_cast<std::size_t>(from.size()) * sizeof(T));
     }
 

@@ -243,10 +243,6 @@ double resting_contact_of_rocks(const scene::Scene& scene, const world::World& w
 /// bodies in contact with each other.
 std::int64_t bytes_per_body(const solver::Plan& plan) { return plan.body_contact ? 2200 : 700; }
 
-/// Bytes of any body on each of several ranks, which all know it. Measured with 50,000 rocks that fall: 1185 bytes a
-/// rock on each of two ranks and 1238 on each of four, those of its own included; 854 on one rank.
-constexpr std::int64_t bytes_per_known_body = 1100;
-
 /// Extra bytes of a body that may sleep: its load, place at rest, flags and lists, and its pairs, of which a rock at
 /// rest has 2.8, twice while they are sorted.
 std::int64_t sleep_bytes_per_body(const solver::Plan& plan)
@@ -362,7 +358,7 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     const std::int64_t shapes = template_bytes(world) + (plan.rays ? ray_bytes(world) : 0);
     wants.memory_bytes =
         bodies * (bytes_per_body(plan) + sleep_bytes_per_body(plan)) + shapes + strewn_bed_bytes(world, plan);
-    wants.copied_bytes = bodies * bytes_per_known_body + shapes;
+    wants.copied_bytes = shapes;
     if (plan.sand)
     {
         const std::int64_t of_point = bytes_per_point(scene, plan) + sleep_bytes_per_point(scene, plan);

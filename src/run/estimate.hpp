@@ -22,7 +22,7 @@ struct DiskUse
 struct Estimate
 {
     std::int64_t memory_bytes;   ///< memory of the backend
-    std::int64_t copied_bytes;   ///< likewise, of what each of several ranks has whole: bodies and shapes
+    std::int64_t copied_bytes;   ///< likewise, of what each of several ranks has whole: shapes
     double       bytes_a_point;  ///< memory of the sand, pages included; 0 without sand
     std::int64_t snapshot_bytes; ///< host memory while a snapshot is written asynchronously; 0 without
     DiskUse      disk;

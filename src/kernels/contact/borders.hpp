@@ -40,18 +40,12 @@ struct Borders
         : clear(exec, "balls inside a rank")
         , body(exec, "bodies at borders")
         , ball(exec, "balls of bodies at borders")
-        , at(exec, "bodies to set")
-        , to_clear(exec, "balls to set")
     {
     }
 
     Array<Exec, Clearance>    clear; ///< around each body when it was looked at last
     Array<Exec, std::int32_t> body;  ///< those found last, ascending
     Array<Exec, BorderBody>   ball;  ///< of each of them
-
-    // Scratch.
-    Array<Exec, std::int32_t> at;
-    Array<Exec, Clearance>    to_clear;
 };
 
 /// Begins with so many bodies, of which nothing is known.

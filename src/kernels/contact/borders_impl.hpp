@@ -28,16 +28,6 @@ struct Fill
     TREAD_HD void operator()(std::int64_t i) const { values[i] = value; }
 };
 
-template<class Exec, class T>
-void set_at(const Exec& exec, const char* name, const std::vector<std::int32_t>& body, const std::vector<T>& value,
-            Array<Exec, std::int32_t>& at, Array<Exec, T>& rows, T* values)
-{
-    if (body.empty()) { return; }
-    at.assign(body);
-    rows.assign(value);
-    for_each(exec, name, at.size(), SetAt<T>{at.data(), rows.data(), values});
-}
-
 struct WritePlace
 {
     const std::int32_t* body;
@@ -133,7 +123,13 @@ template<class Exec>
 void keep_clearances(const Exec& exec, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
                      const std::vector<Clearance>& clear)
 {
-    border_steps::set_at(exec, "keep clearances", body, clear, borders.at, borders.to_clear, borders.clear.data());
+    if (body.empty()) { return; }
+    Array<Exec, std::int32_t> at(exec, "bodies to set");
+    Array<Exec, Clearance>    value(exec, "balls to set");
+    at.assign(body);
+    value.assign(clear);
+    for_each(exec, "keep clearances", at.size(),
+             border_steps::SetAt<Clearance>{at.data(), value.data(), borders.clear.data()});
 }
 
 template<class Exec>
@@ -155,7 +151,7 @@ void list_borders(const Exec& exec, Borders<Exec>& borders, const double* boundi
     const border_steps::Ball ball{border_steps::own_reach(bounding_radius, pairs, bodies), reach};
     dem::select(exec, "bodies at borders", bodies.count, border_steps::IsAtBorder{ball, borders.clear.data()},
                 pairs.search.found, pairs.sort, borders.body);
-    borders.ball.resize(borders.body.size());
+    borders.ball.fit(borders.body.size());
     for_each(exec, "balls of bodies at borders", borders.body.size(),
              border_steps::WriteBalls{ball, borders.body.data(), borders.ball.data()});
 }

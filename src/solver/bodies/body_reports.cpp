@@ -91,8 +91,7 @@ void BodyReports<Exec>::follow(const RowMoves<Exec>& moves)
                       reinterpret_cast<std::uint32_t*>(theirs.data()));
     const std::vector<dem::BodyTotal> of_gone = theirs.to_host();
 
-    take_rows(exec, moves.from, totals);
-    totals.resize_keep(moves.from.size() + 1);
+    take_rows(exec, moves.from, totals, 1);
     std::array<double, dem::body_total_width> sum{};
     for (const dem::BodyTotal& total : of_gone)
     {

@@ -116,5 +116,38 @@ TYPED_TEST(ContactKept, KeptCandidatesChangeNothing)
     for (std::size_t r = 0; r < records.size(); ++r) { EXPECT_EQ(records[r].key, others[r].key); }
 }
 
+/// Another body gets a row before that of the touched one: forces, which body is meant and its number stay.
+TYPED_TEST(ContactKept, FollowsRowsThatComeWithinAStep)
+{
+    using Scene = typename TestFixture::Scene;
+    Scene stays(this->exec(), {sphere_shape(0.05, 40)}, {ball()}, skin(300));
+    Scene first(this->exec(), {sphere_shape(0.05, 40)}, {ball()}, skin(300));
+    Scene more(this->exec(), {sphere_shape(0.05, 40)}, {{{0.1, 0.1, 0.1}}, ball()}, skin(300));
+    first.bodies.number.assign({7});
+    more.bodies.number.assign({3, 7});
+    for (Scene* scene : {&stays, &first})
+    {
+        scene->begin();
+        scene->substep(5e-5);
+    }
+    more.contact = std::move(first.contact);
+    Array<typename TypeParam::Exec, std::int32_t> row(this->exec(), "rows");
+    row.assign({1});
+    contact::follow_rows(this->exec(), more.contact, row, more.bodies.view());
+    stays.substep(5e-5);
+    more.substep(5e-5);
+    EXPECT_EQ(more.bodies.force.to_host()[0], Vec3<double>(Vec3<double>::Zero()));
+    EXPECT_EQ(more.bodies.force.to_host()[1], stays.bodies.force.to_host()[0]);
+    EXPECT_GT(stays.bodies.force.to_host()[0].norm(), 0);
+    EXPECT_EQ(more.summary().deepest.body, 7);
+    const auto records = more.records(), others = stays.records();
+    ASSERT_EQ(records.size(), others.size());
+    for (std::size_t r = 0; r < records.size(); ++r)
+    {
+        EXPECT_EQ(contact::body_of(records[r].key), 7);
+        EXPECT_EQ(contact::point_of(records[r].key), contact::point_of(others[r].key));
+    }
+}
+
 } // namespace
 } // namespace tread::test
