@@ -208,7 +208,7 @@ std::optional<double> BodyOwners::sum_if_complete(double value) const
 
 bool BodyOwners::are_complete() const { return sum_if_complete(0).has_value(); }
 
-bool BodyOwners::owner_has_changed(const BodyHoldings& decided) const
+bool BodyOwners::owner_changes(const BodyHoldings& decided) const
 {
     double leaving = 0;
     for (const BodyHolding& body : decided) { leaving += body.owner == communicator_.rank() ? 0 : 1; }

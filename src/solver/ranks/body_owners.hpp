@@ -81,9 +81,9 @@ public:
     /// Whether the ranks together own every body once. Collective.
     bool are_complete() const;
 
-    /// Whether any body of any rank has got a new owner by these decisions. Collective; NumericalError if the ranks
-    /// together do not own every body once.
-    bool owner_has_changed(const BodyHoldings& decided) const;
+    /// Whether any body of any rank gets a new owner by these decisions, which are not taken yet. Collective;
+    /// NumericalError if the ranks together do not own every body once.
+    bool owner_changes(const BodyHoldings& decided) const;
 
     const BodyNumbers& numbers() const { return numbers_; }
 

@@ -97,7 +97,7 @@ void BodyRanks<Exec>::assign_owners(const RowArrays<Exec>& arrays, UnheldRows un
     if (pages_have_changed()) { follow_pages(); }
     const BodyHoldings decided   = decide(arrays);
     ExchangedHoldings  exchanged = exchange_holdings(communicator(), decided);
-    const bool         migrate   = owners_.owner_has_changed(decided);
+    const bool         migrate   = owners_.owner_changes(decided);
     // 2. States and contact records leave from the rows before.
     plan_states(decided, exchanged.arriving);
     states_.begin(state_columns(arrays));
