@@ -5,8 +5,8 @@
 namespace tread
 {
 
-/// Asynchronous copy of an array to the host, into a buffer that is reused unless it is much too large. Several requested copies share one
-/// synchronization; the buffer of a GPU is pinned memory.
+/// Asynchronous copy of an array to the host, into a buffer that is reused unless it is much too large. Several
+/// requested copies share one synchronization; the buffer of a GPU is pinned memory.
 template<class Exec, class T>
 class FetchedArray
 {

@@ -71,9 +71,9 @@ std::int64_t bytes_of(const BodyFields& bodies)
 
 BodyFields gathered(const Communicator& communicator, const BodyFields& fields)
 {
-    return {communicator.gather(fields.position),         communicator.gather(fields.orientation),
-            communicator.gather(fields.velocity),         communicator.gather(fields.angular_velocity),
-            communicator.gather(fields.scale),            communicator.gather(fields.shape),
+    return {communicator.gather(fields.position), communicator.gather(fields.orientation),
+            communicator.gather(fields.velocity), communicator.gather(fields.angular_velocity),
+            communicator.gather(fields.scale),    communicator.gather(fields.shape),
             communicator.gather(fields.material)};
 }
 

@@ -72,7 +72,7 @@ void Driver<Exec, Real>::end_phase()
     const bool      saves = phase.name == scene_.output.bed_after;
     if (plan_.rocks && !plan_.sand && (settled || saves))
     {
-        report.packing_fraction = 
+        report.packing_fraction =
             world::packing_fraction(world_, io::gathered(communicator_, simulation_.body_fields()));
         log_.info(fmt::format("packing fraction of the rocks {:.4f}", *report.packing_fraction));
     }

@@ -204,9 +204,8 @@ std::string RunOutput<Exec, Real>::write_bed()
 {
     finish_snapshots();
     auto&       simulation = loop_.simulation;
-    io::BedFile bed        = world::make_bed(place_.scene, place_.world,
-                                             io::gathered(place_.communicator, simulation.body_fields()),
-                                             simulation.contacts());
+    io::BedFile bed        = world::make_bed(
+               place_.scene, place_.world, io::gathered(place_.communicator, simulation.body_fields()), simulation.contacts());
     if (place_.plan.sand)
     {
         bed.points = world::saved_points(place_.communicator, place_.scene, place_.world, simulation.point_fields());

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mpi_session.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
+#include "mpi_session.hpp"
 #include "solver/ranks/body_blocks.hpp"
 
 namespace tread
@@ -16,14 +16,17 @@ namespace
 std::vector<std::int32_t> dealt(std::int32_t bodies)
 {
     std::vector<std::int32_t> owned;
-    for (std::int32_t body = test::world().rank(); body < bodies; body += test::world().size()) { owned.push_back(body); }
+    for (std::int32_t body = test::world().rank(); body < bodies; body += test::world().size())
+    {
+        owned.push_back(body);
+    }
     return owned;
 }
 
 TEST(BodyBlocks, RowsComeInTheOrderOfBodies)
 {
-    constexpr std::int32_t          bodies = 11;
-    const std::vector<std::int32_t> owned  = dealt(bodies);
+    constexpr std::int32_t          bodies  = 11;
+    const std::vector<std::int32_t> owned   = dealt(bodies);
     std::vector<std::int32_t>       numbers = owned; // and two bodies of other ranks
     for (const std::int32_t body : {0, 7}) { numbers.push_back(body); }
     std::sort(numbers.begin(), numbers.end());

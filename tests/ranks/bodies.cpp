@@ -235,7 +235,7 @@ TYPED_TEST(BodiesOfRanks, ARankHasRowsForWhatItHolds)
                                     test::slabs(0.5 * heap_size[0], this->ranks()));
     for (int step = 0; step < 20; ++step) { run.together.advance(); }
     const auto         rows = static_cast<std::int64_t>(run.together.simulation().rigid().numbers().rows());
-    const std::int64_t all  = test::world().sum(rows), most = test::world().maximum(rows);
+    const std::int64_t all = test::world().sum(rows), most = test::world().maximum(rows);
     std::printf("1000 rocks have %d rows on all ranks, at most %d on one\n", static_cast<int>(all),
                 static_cast<int>(most));
     EXPECT_GE(all, 1000);
@@ -243,7 +243,7 @@ TYPED_TEST(BodiesOfRanks, ARankHasRowsForWhatItHolds)
     if (this->ranks() > 1) { EXPECT_LT(most, 800); }
 }
 
-/// Their totals stay with the rank that has accounted for them, so that the books close.
+/// Their totals stay with the rank that has accounted for them, so that momentum balances.
 TYPED_TEST(BodiesOfRanks, AllRocksOfARankMayLeave)
 {
     test::SideBySide<TypeParam> run(this->exec(), test::load_text(heap(100, ball())), heap_size,
@@ -257,7 +257,8 @@ TYPED_TEST(BodiesOfRanks, AllRocksOfARankMayLeave)
         EXPECT_EQ(numbers.rows(), 1U) << "the first body, which has a row on every rank";
     }
     const double momentum = test::errors_of(run.together, run.together.simulation().census()).momentum;
-    std::printf("momentum unaccounted for %.2g, tolerance 1e-10: sums of 100 bodies and 900 steps, rounded\n", momentum);
+    std::printf("momentum unaccounted for %.2g, tolerance 1e-10: sums of 100 bodies and 900 steps, rounded\n",
+                momentum);
     EXPECT_LT(std::abs(momentum), 1e-10);
 }
 

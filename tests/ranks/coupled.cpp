@@ -156,8 +156,8 @@ TYPED_TEST(CoupledRanks, AWheelCeasesToTouchSandAndRocks)
     const auto energy = [](auto& experiment)
     { return experiment.simulation().ledger().energy(experiment.simulation().census()); };
     const solver::EnergyRow of_one = energy(run.alone), of_all = energy(run.together);
-    const double            places = test::difference(run.alone.simulation().body_fields().position,
-                                                      run.bodies_together().position, 0.1);
+    const double            places =
+        test::difference(run.alone.simulation().body_fields().position, run.bodies_together().position, 0.1);
     std::printf("friction %.12g and %.12g J, coupling error %.3g and %.3g J, places differ by %.3g\n", of_one.friction,
                 of_all.friction, of_one.coupling, of_all.coupling, places);
     EXPECT_LT(places, bound);

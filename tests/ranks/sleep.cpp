@@ -89,8 +89,7 @@ protected:
                     static_cast<int>(woken));
         EXPECT_GT(most, points / 3);
         EXPECT_GT(woken, 0);
-        return test::difference(run.alone.simulation().body_fields().position,
-                                run.bodies_together().position, 1.0);
+        return test::difference(run.alone.simulation().body_fields().position, run.bodies_together().position, 1.0);
     }
 
     /// Mass, energy and momentum agree.

@@ -168,16 +168,16 @@ void forget_places(const Exec& exec, Array<Exec, std::int32_t>& place)
     for_each(exec, "forget places", place.size(), border_steps::Fill<std::int32_t>{-1, place.data()});
 }
 
-#define TREAD_INSTANTIATE(Exec)\
-    template void                  begin_borders(const Exec&, Borders<Exec>&, std::int64_t);\
-    template void                  forget_clearances(const Exec&, Borders<Exec>&);\
-    template void                  keep_clearances(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,\
-                                                   const std::vector<Clearance>&);\
-    template std::array<double, 2> largest_reaches(const Exec&, const double*, dem::Pairs<Exec>&,\
-                                                   const dem::BodiesView&);\
-    template void                  list_borders(const Exec&, Borders<Exec>&, const double*, dem::Pairs<Exec>&,\
-                                                const dem::BodiesView&, const BorderReach&);\
-    template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);\
+#define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template void                  begin_borders(const Exec&, Borders<Exec>&, std::int64_t);                           \
+    template void                  forget_clearances(const Exec&, Borders<Exec>&);                                     \
+    template void                  keep_clearances(const Exec&, Borders<Exec>&, const std::vector<std::int32_t>&,      \
+                                                   const std::vector<Clearance>&);                                     \
+    template std::array<double, 2> largest_reaches(const Exec&, const double*, dem::Pairs<Exec>&,                      \
+                                                   const dem::BodiesView&);                                            \
+    template void list_borders(const Exec&, Borders<Exec>&, const double*, dem::Pairs<Exec>&, const dem::BodiesView&,  \
+                               const BorderReach&);                                                                    \
+    template void write_places(const Exec&, const Array<Exec, std::int32_t>&, Array<Exec, std::int32_t>&);             \
     template void forget_places(const Exec&, Array<Exec, std::int32_t>&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

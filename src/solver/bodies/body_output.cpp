@@ -47,9 +47,9 @@ struct NamedMotion
 template<class Exec>
 std::vector<NamedMotion> named_motions(const BodyState<Exec>& state)
 {
-    const NamedMotion        nothing{Vec3<double>::Zero(), Quat(0, 0, 0, 0), Vec3<double>::Zero(), Vec3<double>::Zero()};
+    const NamedMotion nothing{Vec3<double>::Zero(), Quat(0, 0, 0, 0), Vec3<double>::Zero(), Vec3<double>::Zero()};
     std::vector<NamedMotion> motions(static_cast<std::size_t>(state.named()), nothing);
-    const auto               read_rows = [&](const auto& array, auto NamedMotion::* field)
+    const auto               read_rows = [&](const auto& array, auto NamedMotion::*field)
     {
         std::vector<std::decay_t<decltype(motions[0].*field)>> values(motions.size());
         copy_to_host(state.exec, values.data(), array.data(), values.size() * sizeof(values[0]));
@@ -143,7 +143,7 @@ Vec3<double> body_place(const BodyState<Exec>& state, std::size_t body)
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template RigidCensus          body_census(BodyState<Exec>&, const dem::BodyTotals<Exec>&);                         \
     template std::vector<BodyRow> named_rows(BodyState<Exec>&, const NamedMeans<Exec>&);                               \
-    template io::BodyFields       body_fields(const BodyState<Exec>&);                                                       \
+    template io::BodyFields       body_fields(const BodyState<Exec>&);                                                 \
     template void                 add_rocks(const BodyState<Exec>&, world::TerrainBins&);                              \
     template Vec3<double>         body_place(const BodyState<Exec>&, std::size_t)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)

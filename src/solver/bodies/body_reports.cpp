@@ -106,8 +106,7 @@ void BodyReports<Exec>::transfer(StateFile& file, std::int64_t rows)
 {
     if (file.exact())
     {
-        file.own("bodies/totals", totals,
-                 accept::all(accept::rows(static_cast<std::size_t>(rows)), accept::finite()));
+        file.own("bodies/totals", totals, accept::all(accept::rows(static_cast<std::size_t>(rows)), accept::finite()));
         file.doubles("bodies/taken", taken);
     }
     else if (file.loads())

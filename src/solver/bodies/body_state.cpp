@@ -201,7 +201,7 @@ void BodyState<Exec>::transfer(StateFile& file)
         write_rows(*this);
         dem::forget_list(pairs);
     }
-    const BodyBlocks          order = file.loads() ? BodyBlocks() : blocks();
+    const BodyBlocks          order        = file.loads() ? BodyBlocks() : blocks();
     const std::vector<double> mass_of_rows = bodies.mass.to_host();
     bodies.for_each_field(
         [&](std::string_view field, auto& array)

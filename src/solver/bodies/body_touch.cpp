@@ -21,8 +21,8 @@ std::pair<std::size_t, std::size_t> materials_of(const BodyState<Exec>& state, s
     const std::vector<std::int32_t>& material = state.world.bodies.material;
     const std::uint64_t              number   = state.numbers().key_in_scene(key);
     const auto                       a        = static_cast<std::size_t>(dem::first_of(number)),
-                                     b        = static_cast<std::size_t>(dem::second_of(number));
-    const auto one = static_cast<std::size_t>(material[a]);
+               b                              = static_cast<std::size_t>(dem::second_of(number));
+    const auto one                            = static_cast<std::size_t>(material[a]);
     return std::minmax({one, b < material.size() ? static_cast<std::size_t>(material[b]) : wall});
 }
 

@@ -59,7 +59,8 @@ public:
     NewTouch new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
                        const TouchChange& change);
 
-    /// Gives touched bodies their rows after others have come within a step. `row`: of each row before, the present one.
+    /// Gives touched bodies their rows after others have come within a step. `row`: of each row before, the present
+    /// one.
     void follow_rows(const Array<Exec, std::int32_t>& row, const dem::BodiesView& bodies)
     {
         contact::follow_rows(exec_, contact_, row, bodies);

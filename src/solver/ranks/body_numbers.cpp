@@ -33,24 +33,20 @@ std::vector<std::int32_t> BodyNumbers::rows_of(const std::vector<std::int32_t>& 
 
 std::uint64_t BodyNumbers::key_in_scene(std::uint64_t key) const
 {
-    const std::uint64_t patch = key - dem::whole_pair(key);
-    const auto          count = static_cast<std::int64_t>(rows());
-    const std::int64_t  b     = dem::second_of(key);
-    const std::int64_t  other = b < count ? number(b) : b - count + static_cast<std::int64_t>(bodies_);
-    return dem::pair_key(number(dem::first_of(key)), other) + patch;
+    const auto         count = static_cast<std::int64_t>(rows());
+    const std::int64_t b     = dem::second_of(key);
+    const std::int64_t other = b < count ? number(b) : b - count + static_cast<std::int64_t>(bodies_);
+    return dem::pair_key(number(dem::first_of(key)), other) + dem::patch_number(key);
 }
 
 std::optional<std::uint64_t> BodyNumbers::find_key(std::uint64_t key) const
 {
-    const std::uint64_t patch = key - dem::whole_pair(key);
-    const auto          count = static_cast<std::int64_t>(bodies_);
-    const std::int64_t  b     = dem::second_of(key);
-    const auto          first = find_row(dem::first_of(key));
-    if (!first) { return {}; }
-    if (b >= count) { return dem::pair_key(*first, b - count + static_cast<std::int64_t>(rows())) + patch; }
-    const auto second = find_row(b);
-    if (!second) { return {}; }
-    return dem::pair_key(*first, *second) + patch;
+    const auto         count = static_cast<std::int64_t>(bodies_);
+    const std::int64_t b     = dem::second_of(key);
+    const auto         first = find_row(dem::first_of(key));
+    const auto second = b < count ? find_row(b) : std::optional(static_cast<std::int32_t>(b - count) + wall_row());
+    if (!first || !second) { return {}; }
+    return dem::pair_key(*first, *second) + dem::patch_number(key);
 }
 
 std::vector<std::int32_t> BodyNumbers::all() const

@@ -25,10 +25,7 @@ public:
     std::size_t rows() const { return numbers_ ? numbers_->size() : bodies_; }
     std::size_t bodies() const { return bodies_; }
 
-    std::int64_t number(std::int64_t row) const
-    {
-        return numbers_ ? (*numbers_)[static_cast<std::size_t>(row)] : row;
-    }
+    std::int64_t number(std::int64_t row) const { return numbers_ ? (*numbers_)[static_cast<std::size_t>(row)] : row; }
 
     /// Row of a body; empty where this rank has none.
     std::optional<std::int32_t> find_row(std::int64_t number) const;
@@ -56,6 +53,9 @@ public:
     std::vector<std::int32_t> all() const;
 
 private:
+    /// Row of the first wall.
+    std::int32_t wall_row() const { return static_cast<std::int32_t>(rows()); }
+
     std::optional<std::vector<std::int32_t>> numbers_;
     std::size_t                              bodies_;
 };

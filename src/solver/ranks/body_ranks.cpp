@@ -222,9 +222,9 @@ void BodyRanks<Exec>::transfer(StateFile& file)
 template<class Exec>
 BodyHoldings BodyRanks<Exec>::decide(const RowArrays<Exec>& arrays)
 {
-    const dem::BodiesView view   = arrays.bodies.view();
-    const double*         radii  = arrays.bounding_radii.data();
-    std::array<double, 2> met    = contact::largest_reaches(exec_, radii, arrays.pairs, view);
+    const dem::BodiesView view  = arrays.bodies.view();
+    const double*         radii = arrays.bounding_radii.data();
+    std::array<double, 2> met   = contact::largest_reaches(exec_, radii, arrays.pairs, view);
     decomp::combine(communicator(), met.data(), 0, 2);
     const double slack = owners_.slack();
     contact::list_borders(exec_, borders_, radii, arrays.pairs, view, {met[0] + slack, met[1] + slack, sand_reach_});

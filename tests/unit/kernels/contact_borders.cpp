@@ -108,11 +108,10 @@ TYPED_TEST(Borders, WhatIsInsideStaysOnTheBackend)
 
 TYPED_TEST(Borders, LargestReachesAreThoseOfOwnBodies)
 {
-    auto scene = this->row(this->exec());
+    auto       scene = this->row(this->exec());
     const auto radii = this->bounding_radii(this->exec());
     scene.pairs.displacement.allowed.assign({0.01, 0.03, 0.02, 9.0});
-    const auto largest =
-        contact::largest_reaches(this->exec(), radii.data(), scene.pairs, scene.bodies.view());
+    const auto largest = contact::largest_reaches(this->exec(), radii.data(), scene.pairs, scene.bodies.view());
     EXPECT_EQ(largest[0], radius + 0.03);
     EXPECT_EQ(largest[1], radius + 0.02) << "of small ones";
 }

@@ -44,7 +44,8 @@ TEST(ForEachField, VisitsEveryArrayOfThePages)
     EXPECT_EQ(fields, arrays_in<decltype(pages)>(0));
 }
 
-/// Roles and numbers differ between ranks, and who is asleep stands with the rest of the sleep (solver/bodies/body_sleep.cpp).
+/// Roles and numbers differ between ranks, and who is asleep stands with the rest of the sleep
+/// (solver/bodies/body_sleep.cpp).
 TEST(ForEachField, VisitsEveryArrayOfTheBodiesButThoseOfRanksAndSleep)
 {
     Counters         counters;

@@ -200,8 +200,7 @@ void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& 
     for_each(exec, "body search radii", bodies.count,
              pair_steps::WriteAllowed{bodies, law.templates, pairs.sizes.is_large.data(), dt, substeps,
                                       pairs.displacement.speed.data(), pairs.displacement.per_step.data(),
-                                      pairs.measure.data(), static_cast<double>(all),
-                                      pairs.displacement.allowed.data(),
+                                      pairs.measure.data(), static_cast<double>(all), pairs.displacement.allowed.data(),
                                       pairs.displacement.search_radius.data()});
 }
 

@@ -50,6 +50,8 @@ TREAD_HD std::int64_t second_of(std::uint64_t key)
 }
 /// Returns the key without the patch number.
 TREAD_HD std::uint64_t whole_pair(std::uint64_t key) { return key >> patch_bits << patch_bits; }
+/// Returns the patch number of a key.
+TREAD_HD std::uint64_t patch_number(std::uint64_t key) { return key - whole_pair(key); }
 TREAD_HD bool same_pair(std::uint64_t one, std::uint64_t other) { return one >> patch_bits == other >> patch_bits; }
 
 /// Number of bits in a word of PairsView::inside, and the number of words for so many nodes plus one extra, because a
@@ -333,8 +335,8 @@ template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                           const SharedView& shared);
 
-/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts. `all`: number of bodies of
-/// all ranks.
+/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts. `all`: number of bodies
+/// of all ranks.
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps, std::int64_t all);

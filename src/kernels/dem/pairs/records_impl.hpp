@@ -134,7 +134,7 @@ struct NewRows
     std::int64_t        now;    ///< likewise
     const std::int32_t* row;    ///< [before]; negative: gone
 
-    /// Of a body or, after all of them, of a wall.
+    /// Returns the row of a body or, after all of them, of a wall.
     TREAD_HD std::int64_t operator()(std::int64_t side) const
     {
         return side < before ? row[side] : side - before + now;
@@ -159,8 +159,7 @@ struct Renumber
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        const std::uint64_t patch = key[p] - whole_pair(key[p]);
-        key[p]                    = pair_key(rows(first_of(key[p])), rows(second_of(key[p]))) + patch;
+        key[p] = pair_key(rows(first_of(key[p])), rows(second_of(key[p]))) + patch_number(key[p]);
     }
 };
 
