@@ -23,6 +23,7 @@ import render  # noqa: E402
 import slices  # noqa: E402
 import slip_curves  # noqa: E402
 from made_up_run import RADIUS, SCENE, SURFACE, colours_of, make_run  # noqa: E402
+from slow_parts import slow  # noqa: E402
 from tread_post import Run, RunError  # noqa: E402
 from tread_post.answers import answers_of, last_drive  # noqa: E402
 from tread_post.campaign import CampaignTable, write_campaign_table  # noqa: E402
@@ -298,6 +299,7 @@ class CampaignPagesTest(unittest.TestCase):
         self.assertEqual([(curve.name, curve.rows.tolist()) for curve in curves], [("sand", [0, 1, 2, 3]), ("rocks", [4, 6, 7])])
         self.assertEqual((curves[0].wheel.radius, curves[0].wheel.weight), (0.2, 635.0))
 
+    @slow
     def test_pictures_and_page(self):
         for name in ("slip_curves.py", "drives.py", "sinkage_slip.py", "campaign_report.py"):
             output = self.path / (f"{name}.html" if "report" in name else f"{name}.png")
@@ -330,6 +332,7 @@ class CampaignPagesTest(unittest.TestCase):
         self.assertEqual(len(re.findall(r'<tr class="under-resolved">', first)), 2)
         self.assertIn("<p>gravity &lt;up&gt; (0001, 0007)</p>", page)
 
+    @slow
     def test_a_table_of_before_verdicts(self):
         with tempfile.TemporaryDirectory() as folder:
             shutil.copytree(self.path / "cases", Path(folder) / "cases")

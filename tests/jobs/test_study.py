@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "jobs"), str(ROOT / "postprocess")]
 
 from made_up_run import colours_of  # noqa: E402
+from slow_parts import slow  # noqa: E402
 from tread_jobs.study_plan import read_setting, read_variation  # noqa: E402
 
 TREAD = os.environ["TREAD"]
@@ -102,6 +103,7 @@ class Studies(unittest.TestCase):
         self.assertEqual((self.directory / "out" / "study.csv").read_text(encoding="utf-8"), before)
         self.assertIn("was expanded from another", self.study("--vary", "time.dt=2e-3,3e-3", "--output", "out", code=2).stderr)
 
+    @slow
     def test_what_was_interrupted_goes_on(self):
         options = ("--vary", "time.dt=2e-3,1e-3", "--output", "out")
         self.study(*options)
@@ -115,6 +117,7 @@ class Studies(unittest.TestCase):
         self.assertEqual((cases / "0000" / "run" / "summary.json").stat().st_mtime_ns, kept)
         self.assertEqual(len(self.rows("out")), 2)
 
+    @slow
     def test_star_with_repeats_and_without_the_closed_form(self):
         self.study("--design", "star", "--vary", "time.dt=4e-3,2e-3", "--vary", "numerics.precision=single,double", "--repeats", "2", "--output", "out",
                    "--reference", "finest", "--quantities", "acceleration,energy")
@@ -133,6 +136,7 @@ class Studies(unittest.TestCase):
         self.assertRegex(done.stdout, r"variant 0000: exit 3: .*substeps")
         self.assertEqual([(row["state"], row["error"] != "") for row in self.rows("out")], [("failed", False), ("done", True)])
 
+    @slow
     def test_a_damaged_variant_is_told(self):
         """Whether its series cannot be read, or its summary has other types: one failed row, and the others are compared."""
         options = ("--vary", "time.dt=4e-3,2e-3,1e-3", "--output", "out")

@@ -18,6 +18,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "jobs"), str(ROOT / "postprocess")]
 
+from slow_parts import slow  # noqa: E402
 from stand_in import write_run  # noqa: E402
 from tread_jobs.campaign_file import read_campaign  # noqa: E402
 from tread_jobs.cases import make_cases  # noqa: E402
@@ -275,6 +276,7 @@ class WholeValidation(unittest.TestCase):
         self.assertEqual({path: path.read_text() for path in self.output.rglob("attempts.log")}, begun)
         self.assertIn("another campaign file", self.validate("ding", "--quick", "--set", "grid.spacing=0.03", code=2).stderr)
 
+    @slow
     def test_nominal_runs_leave_the_band_out(self):
         said = self.validate("mgru3", "--nominal", "--set", "grid.spacing=0.02", "--dry-run").stdout
         self.assertIn("6 runs", said)
@@ -288,6 +290,7 @@ class WholeValidation(unittest.TestCase):
             self.assertFalse(self.output.exists())
         self.assertIn("no such program", self.validate("cmu", "--tread", "/nowhere/tread", code=4).stderr)
 
+    @slow
     def test_runs_that_fail_are_named_and_the_page_says_what_is_missing(self):
         done = self.validate("mgru3", "--quick", code=3, STAND_IN_FAILS="1")
         self.assertIn("2 failed", done.stdout)

@@ -8,7 +8,6 @@
 #include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
 #include "decomp/messages.hpp"
-#include "solver/ranks/over_ranks.hpp"
 #include "solver/ranks/page_loads.hpp"
 #include "solver/ranks/row_arrays.hpp"
 
@@ -44,6 +43,37 @@ std::vector<std::int32_t> negative(const std::vector<std::int32_t>& values)
         if (values[i] < 0) { places.push_back(static_cast<std::int32_t>(i)); }
     }
     return places;
+}
+
+bool has(const std::vector<std::int32_t>& ascending, std::int32_t body)
+{
+    return std::binary_search(ascending.begin(), ascending.end(), body);
+}
+
+/// Accepts numbers of rows, ascending, that begin with those of the first bodies.
+auto holds_first(std::int32_t first)
+{
+    return [first](const std::vector<std::int32_t>& numbers) -> accept::Verdict
+    {
+        const auto count = static_cast<std::size_t>(first);
+        if (numbers.size() >= count && numbers[count - 1] == first - 1) { return {}; }
+        return accept::Refusal{-1, "other bodies", fmt::format("the first {} among them", first)};
+    };
+}
+
+/// Refuses a file that lacks a row of a body that the rank holds.
+void require_rows(const StateFile& file, const std::vector<std::int32_t>& present, const BodyHoldings& held)
+{
+    const auto require = [&]
+    {
+        for (const BodyHolding& body : held)
+        {
+            if (has(present, body.body)) { continue; }
+            file.refuse("ranks/row",
+                        {-1, fmt::format("no row of body {}", body.body), "one of each body that it holds"});
+        }
+    };
+    on_every_rank(file.communicator(), require);
 }
 
 } // namespace
@@ -163,54 +193,45 @@ void BodyRanks<Exec>::follow_pages()
     contact::forget_clearances(exec_, borders_);
 }
 
+/// Holdings of bodies that this rank owns and shares.
+template<class Exec>
+BodyHoldings BodyRanks<Exec>::own_shared() const
+{
+    BodyHoldings own;
+    for (const BodyHolding& body : held_)
+    {
+        if (body.owner == communicator().rank() && body.holders.size() > 1) { own.add(body); }
+    }
+    return own;
+}
+
 template<class Exec>
 void BodyRanks<Exec>::transfer(StateFile& file)
 {
-    const std::int32_t        here    = communicator().rank();
     const std::size_t         count   = numbers().bodies();
-    std::vector<std::int32_t> present = numbers().all(), owned = owners_.owned();
-    BodyHoldings              own;
-    for (const BodyHolding& body : held_)
-    {
-        if (body.owner == here && body.holders.size() > 1) { own.add(body); }
-    }
-    std::vector<std::int32_t> words   = own.words();
+    std::vector<std::int32_t> present = numbers().all(), owned = owners_.owned(), words = own_shared().words();
     bool                      follows = !pages_have_changed();
 
-    const auto among = [](const std::vector<std::int32_t>& all)
-    { return [&all](std::int32_t body) { return std::binary_search(all.begin(), all.end(), body); }; };
-    const auto held = [&](const std::vector<std::int32_t>& values) -> accept::Verdict
+    const auto read = [&](const std::vector<std::int32_t>& values)
+    { return read_holdings(values, communicator().rank(), communicator().size(), count); };
+    const auto holders = [&](const std::vector<std::int32_t>& values) -> accept::Verdict
     {
-        const auto read   = read_holdings(values, here, communicator().size(), count);
-        bool       is_own = read.has_value();
-        for (const BodyHolding& body : read.value_or(BodyHoldings())) { is_own = is_own && among(owned)(body.body); }
+        const std::optional<BodyHoldings> found  = read(values);
+        bool                              is_own = found.has_value();
+        for (const BodyHolding& body : found.value_or(BodyHoldings())) { is_own = is_own && has(owned, body.body); }
         if (is_own) { return {}; }
         return accept::Refusal{-1, "other words", "body, owner, number of holders and holders of shared bodies"};
     };
     const auto numbers_of_bodies = accept::all(accept::index(count), accept::ascending(), accept::distinct());
-    const auto has_first         = [&](const std::vector<std::int32_t>& rows) -> accept::Verdict
-    {
-        const auto first = static_cast<std::size_t>(owners_.always());
-        if (rows.size() >= first && rows[first - 1] == owners_.always() - 1) { return {}; }
-        return accept::Refusal{-1, "other bodies", fmt::format("the first {} among them", first)};
-    };
-    file.own("ranks/row", present, accept::all(numbers_of_bodies, has_first));
-    file.own("ranks/body", owned, accept::all(numbers_of_bodies, accept::each("a body with a row", among(present))));
-    file.own("ranks/holders", words, held);
+    const auto of_present        = [&](std::int32_t body) { return has(present, body); };
+    file.own("ranks/row", present, accept::all(numbers_of_bodies, holds_first(owners_.always())));
+    file.own("ranks/body", owned, accept::all(numbers_of_bodies, accept::each("a body with a row", of_present)));
+    file.own("ranks/holders", words, holders);
     file.numbers("ranks/follows_pages", follows);
     if (!file.loads()) { return; }
 
-    held_ = exchange_holdings(communicator(), read_holdings(words, here, communicator().size(), count).value()).held;
-    check_on_ranks(&communicator(),
-                   [&]
-                   {
-                       for (const BodyHolding& body : held_)
-                       {
-                           if (among(present)(body.body)) { continue; }
-                           file.refuse("ranks/row", {-1, fmt::format("no row of body {}", body.body),
-                                                     "a row of each body that the rank holds"});
-                       }
-                   });
+    held_ = exchange_holdings(communicator(), read(words).value()).held;
+    require_rows(file, present, held_);
     owners_.restore(std::move(present), owned, held_);
     if (!owners_.are_complete())
     {

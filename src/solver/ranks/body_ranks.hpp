@@ -93,6 +93,7 @@ public:
 
 private:
     void         follow_pages();
+    BodyHoldings own_shared() const;
     BodyHoldings decide(const RowArrays<Exec>& arrays);
     void         plan_states(const BodyHoldings& decided, const RankLists& arriving);
     void         move_rows(const RowArrays<Exec>& arrays, RowChange change);
