@@ -1,13 +1,13 @@
 #include "solver/ranks/body_ranks.hpp"
 
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
-#include "decomp/messages.hpp"
 #include "solver/ranks/page_loads.hpp"
 #include "solver/ranks/row_arrays.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "backend/array.hpp"
 #include "decomp/rows.hpp"
 
 namespace tread::solver
