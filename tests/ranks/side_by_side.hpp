@@ -1,13 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "decomp/messages.hpp"
 #include "mpi_session.hpp"
 #include "physics/harness.hpp"
 #include "solver/ranks/page_loads.hpp"
@@ -83,6 +86,48 @@ auto errors_of(Experiment<Exec>& experiment, const solver::Census& now)
     ledger.energy(now);
     ledger.balance(now);
     return ledger.errors();
+}
+
+/// Expects that all holders of a body have its state to the bit, and returns how many ghosts were compared. Collective.
+template<class Exec>
+int compare_holders(solver::DemSolver<Exec>& rigid)
+{
+    using State                          = std::array<double, 22>; // number, place, motion, force, how far it may move
+    const std::vector<std::int32_t> role = rigid.bodies().role.to_host();
+    const auto position = rigid.bodies().position.to_host(), velocity = rigid.bodies().velocity.to_host(),
+               spin = rigid.bodies().angular_velocity.to_host(), force = rigid.bodies().force.to_host(),
+               torque                    = rigid.bodies().torque.to_host();
+    const std::vector<Quat>   turned     = rigid.bodies().orientation.to_host();
+    const std::vector<double> stiffness  = rigid.bodies().stiffness.to_host();
+    const std::vector<double> allowed    = rigid.pairs().displacement.allowed.to_host();
+    std::vector<State>        held;
+    for (std::size_t row = 0; row < role.size(); ++row)
+    {
+        if (role[row] == dem::role_none) { continue; }
+        State& state = held.emplace_back();
+        auto   to    = state.begin();
+        *to++        = static_cast<double>(rigid.numbers().number(static_cast<std::int64_t>(row)));
+        for (const auto* field : {&position, &velocity, &spin, &force, &torque})
+        {
+            to = std::copy((*field)[row].data(), (*field)[row].data() + 3, to);
+        }
+        to    = std::copy(turned[row].coeffs().data(), turned[row].coeffs().data() + 4, to);
+        *to++ = stiffness[row];
+        *to   = allowed[row];
+    }
+    std::map<double, State> of_first;
+    int                     ghosts = 0;
+    for (const std::vector<State>& of_rank : decomp::gather_values(world(), held))
+    {
+        for (const State& state : of_rank)
+        {
+            const auto [first, is_first] = of_first.try_emplace(state[0], state);
+            if (is_first) { continue; }
+            ++ghosts;
+            EXPECT_EQ(first->second, state) << "body " << state[0];
+        }
+    }
+    return ghosts;
 }
 
 enum class Owners

@@ -5,8 +5,8 @@
 #include "kernels/dem/pairs/pairs.hpp"
 #include "kernels/mpm/pages/page_lattice.hpp"
 
-// Bodies near pages of other ranks, which the host decides about; most bodies of a rank are none, and stay on the
-// backend.
+// Bodies about which the host decides which ranks hold them. A decision lasts until a body may leave the balls that it
+// was made for; most bodies of a rank stay on the backend.
 namespace tread::contact
 {
 
@@ -26,24 +26,24 @@ struct BorderBody
     mpm::Reach   reach;    ///< m
 };
 
-/// A ball around a place in which all is known to be one rank's: its radius, m, for bodies and for sand.
+/// Balls around a place, for bodies and for sand: who holds a body stays the same while its own balls are inside them.
 struct Clearance
 {
     Vec3<double> position{0.0, 0.0, 0.0}; ///< m
-    mpm::Reach   within{-1.0, -1.0};      ///< nothing is known
+    mpm::Reach   within{-1.0, -1.0};      ///< m; below 0: nothing is known
 };
 
 template<class Exec>
 struct Borders
 {
     explicit Borders(const Exec& exec)
-        : clear(exec, "balls inside a rank")
+        : clear(exec, "balls of decisions")
         , body(exec, "bodies at borders")
         , ball(exec, "balls of bodies at borders")
     {
     }
 
-    Array<Exec, Clearance>    clear; ///< around each body when it was looked at last
+    Array<Exec, Clearance>    clear; ///< of the last decision about each body
     Array<Exec, std::int32_t> body;  ///< those found last, ascending
     Array<Exec, BorderBody>   ball;  ///< of each of them
 };
@@ -52,11 +52,11 @@ struct Borders
 template<class Exec>
 void begin_borders(const Exec&, Borders<Exec>& borders, std::int64_t bodies);
 
-/// Forgets what is this rank's alone: owners of pages have changed.
+/// Forgets all decisions: owners of pages have changed.
 template<class Exec>
 void forget_clearances(const Exec&, Borders<Exec>& borders);
 
-/// Takes these balls around these bodies as this rank's alone.
+/// Keeps what the decisions about these bodies hold for.
 template<class Exec>
 void keep_clearances(const Exec&, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
                      const std::vector<Clearance>& clear);
@@ -67,7 +67,7 @@ template<class Exec>
 std::array<double, 2> largest_reaches(const Exec&, const double* bounding_radius, dem::Pairs<Exec>& pairs,
                                       const dem::BodiesView& bodies);
 
-/// Lists this rank's bodies that are not known to reach this rank's pages alone. Waits for their number.
+/// Lists this rank's bodies for which the last decision may not hold any more. Waits for their number.
 template<class Exec>
 void list_borders(const Exec&, Borders<Exec>& borders, const double* bounding_radius, dem::Pairs<Exec>& pairs,
                   const dem::BodiesView& bodies, const BorderReach& reach);

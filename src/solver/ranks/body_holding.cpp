@@ -63,27 +63,71 @@ std::optional<BodyHoldings> read_holdings(const std::vector<std::int32_t>& words
     return BodyHoldings(words);
 }
 
-ExchangedHoldings exchange_holdings(const Communicator& communicator, const BodyHoldings& decided)
+bool holds(const BodyHolding& body, std::int32_t rank)
 {
-    const auto                ranks = static_cast<std::size_t>(communicator.size());
-    RankLists                 words(ranks);
-    std::vector<BodyHoldings> held(1); // what this rank keeps, then what others send
+    return std::binary_search(body.holders.begin(), body.holders.end(), rank);
+}
+
+HoldingChanges exchange_changes(const Communicator& communicator, const BodyHoldings& decided, const BodyHoldings& held)
+{
+    const std::int32_t here = communicator.rank(), ranks = communicator.size();
+    RankLists          words(static_cast<std::size_t>(ranks));
+    HoldingChanges     found;
+    found.leaving.resize(words.size());
+    HoldingLookup before(held, here);
     for (const BodyHolding& body : decided)
     {
-        for (const std::int32_t holder : body.holders)
+        const BodyHolding last = before.of(body.body);
+        for (std::int32_t rank = 0; rank < ranks; ++rank)
         {
-            if (holder == communicator.rank()) { held.front().add(body); }
-            else { write_words(words[static_cast<std::size_t>(holder)], body); }
+            if (rank == here || !(holds(body, rank) || holds(last, rank))) { continue; }
+            write_words(words[static_cast<std::size_t>(rank)], body);
+            if (!holds(last, rank)) { found.leaving[static_cast<std::size_t>(rank)].push_back(body.body); }
         }
     }
-    RankLists arriving;
+    std::vector<BodyHoldings> all{decided};
     for (std::vector<std::int32_t>& received : decomp::exchange_values(communicator, words))
     {
-        held.emplace_back(std::move(received));
-        arriving.emplace_back();
-        for (const BodyHolding& body : held.back()) { arriving.back().push_back(body.body); }
+        all.emplace_back(std::move(received));
+        found.arriving.emplace_back();
+        HoldingLookup known(held, here);
+        for (const BodyHolding& body : all.back())
+        {
+            if (holds(body, here) && !known.lists(body.body)) { found.arriving.back().push_back(body.body); }
+        }
     }
-    return {merged(held), std::move(arriving)};
+    found.all = merged(all);
+    return found;
+}
+
+BodyHoldings changed(const BodyHoldings& held, const BodyHoldings& changes, std::int32_t rank)
+{
+    HoldingLookup             change(changes, rank);
+    std::vector<BodyHoldings> parts(2);
+    for (const BodyHolding& body : held)
+    {
+        if (!change.lists(body.body)) { parts[0].add(body); }
+    }
+    for (const BodyHolding& body : changes)
+    {
+        if (body.holders.size() > 1 && holds(body, rank)) { parts[1].add(body); }
+    }
+    return merged(parts);
+}
+
+BodyHoldings exchange_holdings(const Communicator& communicator, const BodyHoldings& owned)
+{
+    RankLists words(static_cast<std::size_t>(communicator.size()));
+    for (const BodyHolding& body : owned)
+    {
+        for (const std::int32_t holder : body.holders) { write_words(words[static_cast<std::size_t>(holder)], body); }
+    }
+    std::vector<BodyHoldings> all;
+    for (std::vector<std::int32_t>& received : decomp::exchange_values(communicator, words))
+    {
+        all.emplace_back(std::move(received));
+    }
+    return merged(all);
 }
 
 std::vector<decomp::Route> routes_of(const RankLists& lists)

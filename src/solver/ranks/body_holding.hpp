@@ -13,7 +13,7 @@
 namespace tread::solver
 {
 
-/// Owner and holders of a body that is not held by this rank alone.
+/// Owner and holders of a body.
 struct BodyHolding
 {
     std::int32_t                  body;
@@ -54,6 +54,7 @@ public:
     }
 
     void add(const BodyHolding& holding);
+    bool empty() const { return words_.empty(); }
 
     Iterator begin() const { return Iterator(words_.data()); }
     Iterator end() const { return Iterator(words_.data() + words_.size()); }
@@ -64,14 +65,43 @@ private:
     std::vector<std::int32_t> words_;
 };
 
+/// Looks holdings up, in ascending order of bodies.
+class HoldingLookup
+{
+public:
+    /// `held`: ascending; outlives this. A body that it does not list is `alone`'s.
+    HoldingLookup(const BodyHoldings& held, std::int32_t alone)
+        : next_(held.begin())
+        , end_(held.end())
+        , alone_(alone)
+    {
+    }
+
+    bool lists(std::int32_t body)
+    {
+        while (next_ != end_ && (*next_).body < body) { ++next_; }
+        return next_ != end_ && (*next_).body == body;
+    }
+
+    BodyHolding of(std::int32_t body) { return lists(body) ? *next_ : BodyHolding{body, alone_, {&alone_, 1}}; }
+
+private:
+    BodyHoldings::Iterator next_, end_;
+    std::int32_t           alone_;
+};
+
+/// Whether a rank is one of these holders.
+bool holds(const BodyHolding& body, std::int32_t rank);
+
 /// One list of bodies, or of rows, per rank.
 using RankLists = std::vector<std::vector<std::int32_t>>;
 
-/// Result of the exchange of all ranks' decisions.
-struct ExchangedHoldings
+/// Changes of all ranks that concern this one: it held a body, or holds it from now on.
+struct HoldingChanges
 {
-    BodyHoldings held;     ///< bodies that this rank shares from now on, ascending
-    RankLists    arriving; ///< by rank: bodies whose state it sends
+    BodyHoldings all;      ///< ascending
+    RankLists    arriving; ///< by rank: bodies that this rank has not held, whose state it sends
+    RankLists    leaving;  ///< by rank: likewise, of those that this rank decided about
 };
 
 /// Reads words that may come from anywhere; empty where they are none of BodyHoldings, ascending, for `bodies` bodies
@@ -79,8 +109,17 @@ struct ExchangedHoldings
 std::optional<BodyHoldings> read_holdings(const std::vector<std::int32_t>& words, std::int32_t owner,
                                           std::int32_t ranks, std::size_t bodies);
 
-/// Sends the decisions of this rank, ascending, to the holders, and returns those that concern this rank. Collective.
-ExchangedHoldings exchange_holdings(const Communicator& communicator, const BodyHoldings& decided);
+/// Sends what this rank has decided, ascending, about bodies that it owned, to who holds them and who did, and returns
+/// what concerns this rank. `held`: bodies that it has shared until now, ascending. Collective.
+HoldingChanges exchange_changes(const Communicator& communicator, const BodyHoldings& decided,
+                                const BodyHoldings& held);
+
+/// Bodies that `rank` shares after these changes, ascending. `held`: those before, ascending.
+BodyHoldings changed(const BodyHoldings& held, const BodyHoldings& changes, std::int32_t rank);
+
+/// Sends the holdings of bodies that this rank owns and shares to the other holders, and returns all that it holds,
+/// ascending. Collective.
+BodyHoldings exchange_holdings(const Communicator& communicator, const BodyHoldings& owned);
 
 /// Routes of lists, in ascending order of ranks; none for an empty list.
 std::vector<decomp::Route> routes_of(const RankLists& lists);

@@ -1,6 +1,7 @@
 #include "solver/ranks/body_owners.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -18,6 +19,18 @@ namespace
 /// Spacings: hysteresis of ownership. A body this near to a page of its rank stays with it, so that bodies at a border
 /// do not migrate back and forth with their contact records. The rank's search radius is enlarged by as much.
 constexpr double owner_slack = 0.25;
+
+/// Spacings: a decision lasts until a body has moved as far, so that bodies that hardly move cost a search nothing.
+constexpr double decision_margin = 0.125;
+
+/// Spacings: what may meet a body grows in such steps, and shrinks by no less than four.
+constexpr double reach_step = 0.25;
+
+double lasting(double last, double needed, double step)
+{
+    const double now = step * std::ceil(needed / step);
+    return needed <= last && last <= now + 4 * step ? last : now;
+}
 
 std::vector<std::int32_t> every_rank(const Communicator& communicator)
 {
@@ -59,9 +72,11 @@ void BodyOwners::follow(const std::vector<std::uint64_t>& keys, const decomp::Pa
 
 void BodyOwners::set(std::vector<std::int32_t> numbers, std::vector<std::int32_t> roles)
 {
-    owned_ = {};
+    owned_  = {};
+    unheld_ = 0;
     for (std::size_t row = 0; row < numbers.size(); ++row)
     {
+        unheld_ += roles[row] == dem::role_none && numbers[row] >= always_ ? 1 : 0;
         if (roles[row] != dem::role_owner) { continue; }
         owned_.count += 1;
         owned_.sum += numbers[row];
@@ -123,98 +138,108 @@ void BodyOwners::restore(std::vector<std::int32_t> numbers, const std::vector<st
     set(std::move(numbers), std::move(roles));
 }
 
-double BodyOwners::slack() const { return owner_slack * lattice_.spacing; }
+contact::BorderReach BodyOwners::lasting_reach(const contact::BorderReach&  last,
+                                               const std::array<double, 2>& met) const
+{
+    // As far as a body may be from the pages of its owner.
+    const double slack = (owner_slack + decision_margin) * lattice_.spacing;
+    return {lasting(last.met_by_large, met[0] + slack, reach_step * lattice_.spacing),
+            lasting(last.met_by_small, met[1] + slack, reach_step * lattice_.spacing), last.sand};
+}
 
 std::int32_t BodyOwners::next_owner(const contact::BorderBody& ball)
 {
-    const double near_by = std::min(slack(), ball.radius);
+    const double near_by = std::min(owner_slack * lattice_.spacing, ball.radius);
     return ownership_->around(ball.position, {near_by, 0}).owner_before_all(communicator_.rank());
 }
 
-BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies)
+BodyOwners::Decision BodyOwners::decide_on(std::int32_t body, const contact::BorderBody& ball)
 {
-    const std::int32_t              here = communicator_.rank();
-    const std::vector<std::int32_t> all  = every_rank(communicator_);
-    std::vector<std::int32_t>       holders;
-    BorderDecisions                 found;
+    const std::int32_t here   = communicator_.rank();
+    const double       margin = decision_margin * lattice_.spacing;
+    const mpm::Reach   reach{ball.reach.bodies + margin, ball.reach.sand + margin};
+    if (static_cast<std::size_t>(body) < is_jointed_.size() && is_jointed_[static_cast<std::size_t>(body)] != 0)
+    {
+        return {next_owner(ball), every_rank(communicator_), reach};
+    }
+    const decomp::Vicinity around = ownership_->around(ball.position, reach);
+    const mpm::Reach       inside = around.clear_of_others(here);
+    if (inside.bodies > 0) { return {here, {here}, inside}; }
+    Decision made{next_owner(ball), {}, reach};
+    around.find_owners(made.holders);
+    return made;
+}
+
+BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies, const BodyHoldings& held)
+{
+    const std::int32_t here = communicator_.rank();
+    HoldingLookup      before(held, here);
+    BorderDecisions    found;
     for (std::size_t i = 0; i < bodies.row.size(); ++i)
     {
-        const auto                 body = static_cast<std::int32_t>(numbers_.number(bodies.row[i]));
-        const auto                 b    = static_cast<std::size_t>(body);
-        const contact::BorderBody& ball = bodies.ball[i];
-        if (b < is_jointed_.size() && is_jointed_[b] != 0)
-        {
-            if (all.size() > 1) { found.shared.add({body, next_owner(ball), all}); }
-            continue;
-        }
-        const decomp::Vicinity around = ownership_->around(ball.position, ball.reach);
-        const mpm::Reach       clear  = around.clear_of_others(here);
-        if (clear.bodies > 0)
-        {
-            found.inside.push_back(bodies.row[i]);
-            found.clear.push_back({ball.position, clear});
-            continue;
-        }
-        around.find_owners(holders);
-        if (holders.size() == 1 && holders.front() == here) { continue; }
-        found.shared.add({body, next_owner(ball), holders});
+        const auto        body = static_cast<std::int32_t>(numbers_.number(bodies.row[i]));
+        const Decision    made = decide_on(body, bodies.ball[i]);
+        const BodyHolding last = before.of(body), now{body, made.owner, made.holders};
+        // Another owner decides next, and this rank knows nothing when it is the owner again.
+        found.clear.push_back(made.owner == here ? contact::Clearance{bodies.ball[i].position, made.within}
+                                                 : contact::Clearance{});
+        if (now.owner != last.owner || !std::ranges::equal(now.holders, last.holders)) { found.changes.add(now); }
     }
     return found;
 }
 
-std::optional<RowChange> BodyOwners::take_roles(const BodyHoldings& decided, const BodyHoldings& held,
-                                                UnheldRows unheld)
+std::optional<RowChange> BodyOwners::take_roles(const BodyHoldings& changes, UnheldRows unheld)
 {
+    const std::int32_t              here   = communicator_.rank();
     const std::vector<std::int32_t> before = numbers_.all();
     std::vector<std::int32_t>       numbers, roles;
-    auto                            next      = held.begin();
-    auto                            mine      = decided.begin();
-    const auto                      take_held = [&]
+    auto                            next = changes.begin();
+    const auto                      take = [&](std::int32_t body, std::int32_t role)
     {
-        numbers.push_back((*next).body);
-        roles.push_back((*next).owner == communicator_.rank() ? dem::role_owner : dem::role_ghost);
+        if (role == dem::role_none && unheld == UnheldRows::go && body >= always_) { return; }
+        numbers.push_back(body);
+        roles.push_back(role);
+    };
+    const auto take_change = [&]
+    {
+        const std::int32_t held = (*next).owner == here ? dem::role_owner : dem::role_ghost;
+        take((*next).body, holds(*next, here) ? held : dem::role_none);
         ++next;
     };
     for (std::size_t row = 0; row < before.size(); ++row)
     {
-        const std::int32_t body = before[row];
-        while (next != held.end() && (*next).body < body) { take_held(); }
-        while (mine != decided.end() && (*mine).body < body) { ++mine; }
-        if (next != held.end() && (*next).body == body)
-        {
-            take_held();
-            continue;
-        }
-        const bool left = role_[row] == dem::role_ghost || (mine != decided.end() && (*mine).body == body);
-        const auto role = left ? static_cast<std::int32_t>(dem::role_none) : role_[row];
-        if (role == dem::role_none && unheld == UnheldRows::go && body >= always_) { continue; }
-        numbers.push_back(body);
-        roles.push_back(role);
+        while (next != changes.end() && (*next).body < before[row]) { take_change(); }
+        if (next != changes.end() && (*next).body == before[row]) { take_change(); }
+        else { take(before[row], role_[row]); }
     }
-    while (next != held.end()) { take_held(); }
+    while (next != changes.end()) { take_change(); }
     std::optional<RowChange> change = change_between(before, numbers);
     set(std::move(numbers), std::move(roles));
     return change;
 }
 
-std::optional<double> BodyOwners::sum_if_complete(double value) const
+std::optional<std::array<double, 2>> BodyOwners::sums_if_complete(const std::array<double, 2>& values) const
 {
-    double sums[] = {owned_.count, owned_.sum, value};
-    decomp::combine(communicator_, sums, 3, 0);
+    double sums[] = {owned_.count, owned_.sum, values[0], values[1]};
+    decomp::combine(communicator_, sums, 4, 0);
     const auto all = static_cast<double>(numbers_.bodies());
     if (sums[0] != all || sums[1] != all * (all - 1) / 2) { return std::nullopt; }
-    return sums[2];
+    return {{sums[2], sums[3]}};
 }
 
-bool BodyOwners::are_complete() const { return sum_if_complete(0).has_value(); }
+bool BodyOwners::are_complete() const { return sums_if_complete({}).has_value(); }
 
-bool BodyOwners::owner_changes(const BodyHoldings& decided) const
+OwnerChanges BodyOwners::changes_of_all(const BodyHoldings& changes) const
 {
-    double leaving = 0;
-    for (const BodyHolding& body : decided) { leaving += body.owner == communicator_.rank() ? 0 : 1; }
-    const std::optional<double> of_all = sum_if_complete(leaving);
+    std::array<double, 2> number{};
+    for (const BodyHolding& body : changes)
+    {
+        number[0] += 1;
+        number[1] += body.owner == communicator_.rank() ? 0 : 1;
+    }
+    const std::optional<std::array<double, 2>> of_all = sums_if_complete(number);
     if (!of_all) { throw NumericalError("a body was lost on its way from rank to rank"); }
-    return *of_all > 0;
+    return {(*of_all)[0] > 0, (*of_all)[1] > 0};
 }
 
 std::vector<std::int32_t> BodyOwners::owned() const

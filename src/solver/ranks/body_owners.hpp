@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -15,19 +16,25 @@
 namespace tread::solver
 {
 
-/// Bodies that the owners decide about, and the ball of each within which other ranks matter.
+/// Bodies that the owner decides about, and the ball of each within which other ranks matter.
 struct BodiesAtBorders
 {
-    std::vector<std::int32_t>  row;
+    std::vector<std::int32_t>  row; ///< ascending
     const contact::BorderBody* ball; ///< of each
 };
 
 /// Decisions of this rank about bodies at borders.
 struct BorderDecisions
 {
-    BodyHoldings                    shared; ///< of bodies that this rank owned and does not hold alone from now on
-    std::vector<std::int32_t>       inside; ///< rows of bodies that reach no page of another rank
-    std::vector<contact::Clearance> clear;  ///< of each of these
+    BodyHoldings                    changes; ///< of owner or holders
+    std::vector<contact::Clearance> clear;   ///< how long the decision about each body lasts
+};
+
+/// What a search for pairs changes, on any rank.
+struct OwnerChanges
+{
+    bool holders; ///< of a body
+    bool owners;  ///< likewise
 };
 
 /// What becomes of the rows of bodies that a rank does not hold any more.
@@ -38,10 +45,10 @@ enum class UnheldRows
 };
 
 /// Bodies of this rank and its roles for them, and the decision who owns and who holds each body, on the host. A body
-/// is owned by the rank of the page that holds its centre when pairs are found. Ranks whose pages it may reach before
-/// the next search, enlarged by the largest search radius of any other body, hold it as a ghost, and so do those whose
-/// sand it may touch. Named bodies (or the first, where there is none) have rows on every rank. BodyHoldings and
-/// owned() have numbers of bodies.
+/// is owned by the rank of the page that holds its centre. Ranks whose pages it may reach before the next search,
+/// enlarged by the largest search radius of any other body, hold it as a ghost, and so do those whose sand it may
+/// touch. A decision is made for somewhat larger balls and lasts until the body may leave them. Named bodies (or the
+/// first, where there is none) have rows on every rank. BodyHoldings and owned() have numbers of bodies.
 class BodyOwners
 {
 public:
@@ -69,21 +76,26 @@ public:
     /// holders of those that it shared.
     void restore(std::vector<std::int32_t> numbers, const std::vector<std::int32_t>& owned, const BodyHoldings& held);
 
-    /// Decides about bodies that this rank has owned until now. All others stay with it alone.
-    BorderDecisions decide(const BodiesAtBorders& bodies);
+    /// Decides about bodies that this rank has owned until now. `held`: bodies that it has shared until now.
+    BorderDecisions decide(const BodiesAtBorders& bodies, const BodyHoldings& held);
 
-    /// Takes the roles and rows of exchanged decisions; returns how rows change, empty where they do not.
-    std::optional<RowChange> take_roles(const BodyHoldings& decided, const BodyHoldings& held, UnheldRows unheld);
+    /// Takes the roles and rows of all changes that concern this rank; returns how rows change, empty where they do
+    /// not.
+    std::optional<RowChange> take_roles(const BodyHoldings& changes, UnheldRows unheld);
 
-    /// m, how far a body may be from a page that it is said to reach, so that it does not change hands at every search.
-    double slack() const;
+    /// Whether rows of bodies that this rank does not hold any more are left.
+    bool has_unheld() const { return unheld_ > 0; }
+
+    /// What may meet a body, a little more than needed so that decisions last while displacements change. `met`: m,
+    /// largest own reach of all ranks' bodies, and of their small ones; `last`: of the last search.
+    contact::BorderReach lasting_reach(const contact::BorderReach& last, const std::array<double, 2>& met) const;
 
     /// Whether the ranks together own every body once. Collective.
     bool are_complete() const;
 
-    /// Whether any body of any rank gets a new owner by these decisions, which are not taken yet. Collective;
-    /// NumericalError if the ranks together do not own every body once.
-    bool owner_changes(const BodyHoldings& decided) const;
+    /// What these decisions, which are not taken yet, and those of the other ranks change. Collective; NumericalError
+    /// if the ranks together do not own every body once.
+    OwnerChanges changes_of_all(const BodyHoldings& changes) const;
 
     const BodyNumbers& numbers() const { return numbers_; }
 
@@ -101,13 +113,21 @@ public:
     std::uint64_t page_of(const Vec3<double>& position) const { return ownership_->page_of(position); }
 
 private:
+    struct Decision
+    {
+        std::int32_t              owner;
+        std::vector<std::int32_t> holders; ///< ascending
+        mpm::Reach                within;  ///< m, balls within which it lasts
+    };
+
     void         follow(const std::vector<std::uint64_t>& keys, const decomp::PageRanks& ranks,
                         const std::vector<std::uint8_t>& sand, std::int64_t version);
     std::int32_t next_owner(const contact::BorderBody& ball);
+    Decision     decide_on(std::int32_t body, const contact::BorderBody& ball);
     void         set(std::vector<std::int32_t> numbers, std::vector<std::int32_t> roles);
 
-    /// Sum over ranks of a value; empty if the ranks together do not own every body once. Collective.
-    std::optional<double> sum_if_complete(double value) const;
+    /// Sums over ranks; empty if the ranks together do not own every body once. Collective.
+    std::optional<std::array<double, 2>> sums_if_complete(const std::array<double, 2>& values) const;
 
     /// Number and sum of the numbers of the bodies that this rank owns: integers, exact in double.
     struct Owned
@@ -125,6 +145,7 @@ private:
     std::vector<std::uint8_t>            is_jointed_; ///< by named body: 1 = every rank holds it, and solves its joints
     std::int32_t                         always_;     ///< number of first bodies with rows on every rank
     Owned                                owned_;
+    std::int64_t                         unheld_ = 0; ///< number of rows that only the present step's lists need
 };
 
 } // namespace tread::solver

@@ -82,7 +82,7 @@ template<class Exec>
 BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const world::World& world, double sand_reach)
     : decomposition_(decomposition)
     , exec_(decomposition.transport.exec())
-    , sand_reach_(sand_reach)
+    , reach_{0, 0, sand_reach}
     , owners_(decomposition.communicator, world)
     , shared_(decomposition.transport)
     , borders_(exec_)
@@ -94,6 +94,7 @@ BodyRanks<Exec>::BodyRanks(decomp::Decomposition<Exec>& decomposition, const wor
 {
     owners_.follow_pages(decomposition.owners);
     owners_.assign(world);
+    contact::begin_borders(exec_, borders_, static_cast<std::int64_t>(numbers().rows()));
 }
 
 template<class Exec>
@@ -101,6 +102,7 @@ void BodyRanks<Exec>::take_all()
 {
     owners_.take_all();
     held_ = {};
+    contact::begin_borders(exec_, borders_, static_cast<std::int64_t>(numbers().rows()));
 }
 
 template<class Exec>
@@ -108,7 +110,6 @@ void BodyRanks<Exec>::write_rows(dem::Bodies<Exec>& bodies)
 {
     bodies.role.assign(owners_.roles());
     bodies.number.assign(numbers().all());
-    contact::begin_borders(exec_, borders_, bodies.position.size());
     shared_.plan(held_, numbers(), communicator());
 }
 
@@ -123,42 +124,46 @@ void BodyRanks<Exec>::sum_wanted_displacement(dem::Pairs<Exec>& pairs) const
 template<class Exec>
 void BodyRanks<Exec>::assign_owners(const RowArrays<Exec>& arrays, UnheldRows unheld)
 {
-    // 1. Owners decide, and tell the holders.
     if (pages_have_changed()) { follow_pages(); }
-    const BodyHoldings decided   = decide(arrays);
-    ExchangedHoldings  exchanged = exchange_holdings(communicator(), decided);
-    const bool         migrate   = owners_.owner_changes(decided);
-    // 2. States and contact records leave from the rows before.
-    plan_states(decided, exchanged.arriving);
-    states_.begin(state_columns(arrays));
-    if (migrate) { records_.take(communicator(), arrays.pairs, numbers(), decided); }
-    // 3. Rows go and come.
+    const BodyHoldings decided = decide(arrays);
+    const OwnerChanges change  = owners_.changes_of_all(decided);
     moves_.reset();
-    std::optional<RowChange> change = owners_.take_roles(decided, exchanged.held, unheld);
-    if (change) { move_rows(arrays, std::move(*change)); }
-    arrays.bodies.role.assign(owners_.roles());
-    // 4. States and records arrive.
-    arriving_.assign(numbers().rows_of(joined(exchanged.arriving)));
-    states_.finish(state_columns(arrays), arriving_);
-    if (migrate) { records_.send(communicator(), arrays.pairs, numbers()); }
+    if (change.holders) { exchange_bodies(arrays, decided, change, unheld); }
+    else if (owners_.has_unheld() && unheld == UnheldRows::go)
+    {
+        take_roles(arrays, {}, unheld);
+        shared_.take_rows(numbers());
+    }
     if (moves_) { dem::list_large_bodies(exec_, arrays.pairs); }
-    held_ = std::move(exchanged.held);
-    shared_.plan(held_, numbers(), communicator());
 }
 
-/// Plans the exchange of the states of bodies that others hold.
 template<class Exec>
-void BodyRanks<Exec>::plan_states(const BodyHoldings& decided, const RankLists& arriving)
+void BodyRanks<Exec>::exchange_bodies(const RowArrays<Exec>& arrays, const BodyHoldings& decided, OwnerChanges change,
+                                      UnheldRows unheld)
 {
-    RankLists leaving(static_cast<std::size_t>(communicator().size()));
-    for (const BodyHolding& body : decided)
-    {
-        for (const std::int32_t holder : body.holders)
-        {
-            if (holder != communicator().rank()) { leaving[static_cast<std::size_t>(holder)].push_back(body.body); }
-        }
-    }
-    states_.plan(numbers().rows_of(joined(leaving)), routes_of(leaving), routes_of(arriving));
+    // 1. Owners tell the holders, until now and from now on.
+    const HoldingChanges changes = exchange_changes(communicator(), decided, held_);
+    // 2. States and contact records leave from the rows before.
+    states_.plan(numbers().rows_of(joined(changes.leaving)), routes_of(changes.leaving), routes_of(changes.arriving));
+    states_.begin(state_columns(arrays));
+    if (change.owners) { records_.take(communicator(), arrays.pairs, numbers(), decided); }
+    // 3. Rows go and come.
+    held_ = changed(held_, changes.all, communicator().rank());
+    take_roles(arrays, changes.all, unheld);
+    shared_.plan(held_, numbers(), communicator());
+    // 4. States and records arrive.
+    arriving_.assign(numbers().rows_of(joined(changes.arriving)));
+    states_.finish(state_columns(arrays), arriving_);
+    if (change.owners) { records_.send(communicator(), arrays.pairs, numbers()); }
+}
+
+/// Takes the roles that change, and the rows of bodies that come and go.
+template<class Exec>
+void BodyRanks<Exec>::take_roles(const RowArrays<Exec>& arrays, const BodyHoldings& changes, UnheldRows unheld)
+{
+    std::optional<RowChange> change = owners_.take_roles(changes, unheld);
+    if (change) { move_rows(arrays, std::move(*change)); }
+    arrays.bodies.role.assign(owners_.roles());
 }
 
 template<class Exec>
@@ -228,11 +233,15 @@ void BodyRanks<Exec>::transfer(StateFile& file)
     file.own("ranks/body", owned, accept::all(numbers_of_bodies, accept::each("a body with a row", of_present)));
     file.own("ranks/holders", words, holders);
     file.numbers("ranks/follows_pages", follows);
+    file.numbers("ranks/reach", reach_.met_by_large, reach_.met_by_small);
+    std::vector<contact::Clearance> clear = borders_.clear.to_host();
+    file.own("ranks/clear", clear, accept::all(accept::rows(present.size()), accept::finite()));
     if (!file.loads()) { return; }
 
-    held_ = exchange_holdings(communicator(), read(words).value()).held;
+    held_ = exchange_holdings(communicator(), read(words).value());
     require_rows(file, present, held_);
     owners_.restore(std::move(present), owned, held_);
+    borders_.clear.assign(clear);
     if (!owners_.are_complete())
     {
         file.refuse("ranks/body", {-1, "other bodies", fmt::format("each of {} bodies on one rank", count)});
@@ -241,21 +250,33 @@ void BodyRanks<Exec>::transfer(StateFile& file)
 }
 
 template<class Exec>
+contact::BorderReach BodyRanks<Exec>::reach_of(const RowArrays<Exec>& arrays)
+{
+    std::array<double, 2> met =
+        contact::largest_reaches(exec_, arrays.bounding_radii.data(), arrays.pairs, arrays.bodies.view());
+    decomp::combine(communicator(), met.data(), 0, 2);
+    return owners_.lasting_reach(reach_, met);
+}
+
+template<class Exec>
 BodyHoldings BodyRanks<Exec>::decide(const RowArrays<Exec>& arrays)
 {
-    const dem::BodiesView view  = arrays.bodies.view();
-    const double*         radii = arrays.bounding_radii.data();
-    std::array<double, 2> met   = contact::largest_reaches(exec_, radii, arrays.pairs, view);
-    decomp::combine(communicator(), met.data(), 0, 2);
-    const double slack = owners_.slack();
-    contact::list_borders(exec_, borders_, radii, arrays.pairs, view, {met[0] + slack, met[1] + slack, sand_reach_});
+    const contact::BorderReach reach = reach_of(arrays);
+    if (reach.met_by_large < reach_.met_by_large || reach.met_by_small < reach_.met_by_small)
+    {
+        contact::forget_clearances(exec_, borders_); // made while bodies reached further than what now may meet them
+    }
+    reach_ = reach;
+    contact::list_borders(exec_, borders_, arrays.bounding_radii.data(), arrays.pairs, arrays.bodies.view(), reach_);
+    if (borders_.body.size() == 0) { return {}; }
     border_body_.request(borders_.body);
     border_ball_.request(borders_.ball);
     synchronize(exec_);
-    BorderDecisions decided =
-        owners_.decide({{border_body_.data(), border_body_.data() + borders_.body.size()}, border_ball_.data()});
-    contact::keep_clearances(exec_, borders_, decided.inside, decided.clear);
-    return std::move(decided.shared);
+    const BodiesAtBorders listed{{border_body_.data(), border_body_.data() + borders_.body.size()},
+                                 border_ball_.data()};
+    BorderDecisions       decided = owners_.decide(listed, held_);
+    contact::keep_clearances(exec_, borders_, listed.row, decided.clear);
+    return std::move(decided.changes);
 }
 
 template<class Exec>

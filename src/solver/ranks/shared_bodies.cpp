@@ -1,5 +1,7 @@
 #include "solver/ranks/shared_bodies.hpp"
 
+#include <utility>
+
 #include "backend/instantiate.hpp"
 #include "kernels/contact/borders.hpp"
 
@@ -73,10 +75,8 @@ void SharedBodies<Exec>::plan(const BodyHoldings& held, const BodyNumbers& numbe
     SharingPlan found = list_bodies(held, static_cast<std::size_t>(communicator.size()));
     found.rows[rank].clear();
     number_shares(found, held, rank);
-    body_.assign(numbers.rows_of(found.body));
-    place_.resize(static_cast<std::int64_t>(numbers.rows()));
-    contact::forget_places(place_.exec(), place_);
-    contact::write_places(place_.exec(), body_, place_);
+    number_ = std::move(found.body);
+    take_rows(numbers);
     first_.assign(found.first);
     row_.assign(found.share);
 
@@ -90,6 +90,15 @@ void SharedBodies<Exec>::plan(const BodyHoldings& held, const BodyNumbers& numbe
     prepare(wrench_);
     prepare(stiffness_);
     prepare(speed_);
+}
+
+template<class Exec>
+void SharedBodies<Exec>::take_rows(const BodyNumbers& numbers)
+{
+    body_.assign(numbers.rows_of(number_));
+    place_.resize(static_cast<std::int64_t>(numbers.rows()));
+    contact::forget_places(place_.exec(), place_);
+    contact::write_places(place_.exec(), body_, place_);
 }
 
 template<class Exec>

@@ -12,15 +12,19 @@ namespace tread::solver
 {
 
 /// Bodies that this rank integrates together with others, and the exchange of the shares of their sums between the
-/// holders (kernels/dem/motion/shared.hpp). Not collective: only the ranks that share a body take part.
+/// holders (kernels/dem/motion/shared.hpp). Only the ranks that share a body take part.
 template<class Exec>
 class SharedBodies
 {
 public:
     explicit SharedBodies(decomp::Transport<Exec>& transport);
 
-    /// Lists the bodies shared on each route, in the same order on both sides. `held`: ascending.
+    /// Lists the bodies shared on each route, in the same order on both sides. `held`: ascending. Collective: all ranks
+    /// count messages anew.
     void plan(const BodyHoldings& held, const BodyNumbers& numbers, const Communicator& communicator);
+
+    /// Follows a change of this rank's rows.
+    void take_rows(const BodyNumbers& numbers);
 
     std::int64_t    count() const { return body_.size(); }
     dem::SharedView view();
@@ -46,6 +50,7 @@ private:
     template<class Share>
     void pass_on(Shares<Share>& shares);
 
+    std::vector<std::int32_t>   number_; ///< [count], ascending
     Array<Exec, std::int32_t>   body_;  ///< [count], rows, ascending
     Array<Exec, std::int32_t>   place_; ///< [rows], index in body_; -1: not shared
     Array<Exec, std::int32_t>   first_; ///< [count + 1], first share of each body

@@ -77,7 +77,7 @@ struct FastestNearOfAllRanks
     }
 };
 
-/// Computes SearchDisplacement::per_step of an owned body. Near: FastestNear or FastestNearOfAllRanks.
+/// Computes SearchDisplacement::per_step of a body that is here. Near: FastestNear or FastestNearOfAllRanks.
 template<class Near>
 struct WritePerStep
 {
@@ -87,17 +87,19 @@ struct WritePerStep
     const double*       speed;
     Near                near;
     double*             per_step;
+    double*             counted; ///< the same of owned bodies, whose sum over ranks has every body once
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        per_step[b] = bodies.is_owned(b)
+        per_step[b] = bodies.is_here(b)
                           ? search_displacement(bounding_radius(bodies, templates, b), speed[b], near(b), dt).per_step
                           : 0.0;
+        counted[b]  = bodies.is_owned(b) ? per_step[b] : 0.0;
     }
 };
 
 template<class Near>
-WritePerStep(BodiesView, const TemplateView*, double, const double*, Near, double*) -> WritePerStep<Near>;
+WritePerStep(BodiesView, const TemplateView*, double, const double*, Near, double*, double*) -> WritePerStep<Near>;
 
 struct WriteAllowed
 {
@@ -123,7 +125,7 @@ struct WriteAllowed
     }
 };
 
-/// Recomputes the search radius of bodies whose allowed displacement came from their owner.
+/// Recomputes the search radius of bodies that are here, some of which have just come.
 struct UpdateSearchRadius
 {
     BodiesView          bodies;
@@ -154,11 +156,10 @@ void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
     pairs.displacement.search_radius.resize(bodies.count);
     pairs.displacement.speed.resize(bodies.count);
     pairs.displacement.per_step.resize(bodies.count);
-    pairs.measure.resize(1);
     for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.displacement.speed.data()});
 }
 
-/// Recomputes search radii on several ranks: ghosts receive their allowed displacement from their owners.
+/// Recomputes search radii on several ranks: new ghosts receive their allowed displacement from their owners.
 template<class Exec>
 void update_search_radii(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
@@ -182,15 +183,17 @@ void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView
                           const SharedView& shared)
 {
     using namespace pair_steps;
-    const auto write = [&](const auto& near)
+    pairs.measure.resize(1 + bodies.count);
+    double*    counted = pairs.measure.data() + 1;
+    const auto write   = [&](const auto& near)
     {
         for_each(exec, "body motion", bodies.count,
                  WritePerStep{bodies, law.templates, dt, pairs.displacement.speed.data(), near,
-                              pairs.displacement.per_step.data()});
+                              pairs.displacement.per_step.data(), counted});
     };
     if (bodies.role == nullptr) { write(fastest_near(pairs, bodies)); }
     else { write(FastestNearOfAllRanks{fastest_near(pairs, bodies), shared}); }
-    sum_rows(exec, pairs.displacement.per_step.data(), bodies.count, 1, pairs.measure.data());
+    sum_rows(exec, counted, bodies.count, 1, pairs.measure.data());
 }
 
 template<class Exec>

@@ -168,7 +168,7 @@ struct AllowedDisplacement
     Array<Exec, double> allowed;       ///< m, until the pairs are found again
     Array<Exec, double> search_radius; ///< m, bounding radius plus `allowed`; 0 = not in the cell grid
     Array<Exec, double> speed;         ///< m/s, maximum over each body's points at the start of the search
-    Array<Exec, double> per_step;      ///< bounding radii, of owned bodies: extra Verlet skin for one further step
+    Array<Exec, double> per_step;      ///< bounding radii, of bodies here: extra Verlet skin for one further step
 };
 
 /// The nodes of a cluster that may enter the other body of a pair.
@@ -335,8 +335,8 @@ template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                           const SharedView& shared);
 
-/// Third part: computes pairs.displacement.allowed of owned bodies; owners send it to ghosts. `all`: number of bodies
-/// of all ranks.
+/// Third part: computes pairs.displacement.allowed of bodies that are here; owners send it to new ghosts. `all`: number
+/// of bodies of all ranks.
 template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps, std::int64_t all);
