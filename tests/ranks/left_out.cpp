@@ -1,9 +1,13 @@
+#include <cstdint>
+#include <cstdio>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "rank_run.hpp"
+#include "solver/bodies/dem_solver.hpp"
 
 // MPI calls of a run by name: none for a scene on one rank, and for sand on several ranks those that its parts need.
 // Calls are intercepted through MPI's profiling interface.
@@ -104,6 +108,54 @@ TEST(LeftOutOnRanks, SandOnSeveralAsksForWhatItShares)
 {
     if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
     EXPECT_EQ(calls_of_steps(test::sand_text, test::Ranks::all), (Names{"Allgather", "Irecv", "Isend"}));
+}
+
+/// Two balls, in no one's way, that drift slowly: lists of pairs expire, and who holds the balls does not change.
+const std::string drifting = test::steel_text + R"(
+[[body]]
+name     = "one"
+shape    = "ball"
+material = "steel"
+diameter = 0.1
+density  = 7800.0
+position = [1.0, 0.5, 0.5]
+velocity = [0.0, 0.02, 0.0]
+[[body]]
+name     = "other"
+shape    = "ball"
+material = "steel"
+diameter = 0.1
+density  = 7800.0
+position = [2.0, 0.5, 0.5]
+velocity = [0.0, 0.02, 0.0]
+[[phase]]
+name     = "drift"
+duration = 1.0
+)";
+
+TEST(LeftOutOnRanks, ASearchThatChangesNoHolderExchangesNoBodies)
+{
+    if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
+    Counters                   counters;
+    test::RankRun<Cpu, double> run(Cpu{&counters}, drifting, test::Ranks::all,
+                                   [](const mpm::Index3& page) { return page.y & 1; });
+    solver::DemSolver<Cpu>& rigid = run.simulation().rigid();
+    const double            dt    = 1e-3; // s
+    rigid.command(std::vector<solver::BodyCommand>(2));
+    rigid.find_pairs(dt);
+    EXPECT_EQ(rigid.shares(), test::world().rank() < 2);
+    const std::int64_t first = rigid.partition_version();
+    called().clear();
+    for (int step = 0; step < 300; ++step)
+    {
+        rigid.run(dt, 0, 1);
+        rigid.take_done(dt);
+        rigid.find_pairs(dt);
+    }
+    const std::int64_t searches = rigid.partition_version() - first;
+    std::printf("%d searches in 300 steps\n", static_cast<int>(searches));
+    EXPECT_GT(searches, 5);
+    EXPECT_FALSE(called().contains("Alltoall") || called().contains("Alltoallv"));
 }
 
 } // namespace

@@ -72,7 +72,7 @@ private:
     /// Assigns owners to all pages of the domain, and some around it.
     void assign(const OwnerOf& owner_of)
     {
-        const double                               edge = mpm::page_edge * world_.geometry.spacing;
+        const double                               edge = mpm::page_edge * solver::page_lattice_of(world_).spacing;
         std::vector<std::pair<std::uint64_t, int>> owned;
         const auto last = [&](int axis) { return static_cast<std::int32_t>(world_.geometry.size[axis] / edge) + 2; };
         for (std::int32_t z = -2; z <= last(2); ++z)

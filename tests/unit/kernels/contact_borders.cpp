@@ -79,8 +79,8 @@ TYPED_TEST(Borders, WhatIsNotKnownIsListed)
     EXPECT_EQ(balls[2].position, Vec3<double>(2.5, 0.5, 0.5));
 }
 
-/// Until it may go further than what is known to be this rank's, or owners of pages change.
-TYPED_TEST(Borders, WhatIsInsideStaysOnTheBackend)
+/// Until it may leave the balls of the last decision, or owners of pages change.
+TYPED_TEST(Borders, WhatIsDecidedStaysOnTheBackend)
 {
     auto scene = this->row(this->exec());
     auto found = this->borders(this->exec());

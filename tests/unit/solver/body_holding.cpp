@@ -2,7 +2,7 @@
 
 #include "solver/ranks/body_holding.hpp"
 
-// Holdings of shared bodies as words of a checkpoint, which may come from anywhere.
+// Holdings of shared bodies, and as words of a checkpoint, which may come from anywhere.
 namespace tread::solver
 {
 namespace
@@ -49,6 +49,39 @@ TEST(BodyHolding, OtherWordsAreRefused)
     EXPECT_TRUE(refused({3, 1, 2, 1, 4})) << "no such rank";
     EXPECT_TRUE(refused({3, 1, 2, -1, 1})) << "no such rank";
     EXPECT_TRUE(refused({3, 1, 2, 0, 2})) << "not its owner";
+}
+
+TEST(BodyHolding, ChangesAreTaken)
+{
+    const Words  two{0, 1}, three{0, 1, 2}, mine{1}, others{0, 2};
+    BodyHoldings held, changes;
+    held.add({3, 1, two});
+    held.add({5, 0, two});
+    held.add({7, 1, two});
+    changes.add({2, 0, three});  // comes
+    changes.add({3, 1, mine});   // is this rank's alone
+    changes.add({7, 1, three});  // a third rank holds it
+    changes.add({9, 0, others}); // never was this rank's
+    EXPECT_EQ(changed(held, changes, 1).words(), (Words{2, 0, 3, 0, 1, 2, 5, 0, 2, 0, 1, 7, 1, 3, 0, 1, 2}));
+    EXPECT_EQ(changed(held, {}, 1).words(), held.words());
+    EXPECT_TRUE(changed({}, {}, 1).empty());
+}
+
+TEST(BodyHolding, WhatIsNotListedIsOnesOwn)
+{
+    const Words  two{0, 1};
+    BodyHoldings held;
+    held.add({3, 1, two});
+    held.add({7, 1, two});
+    HoldingLookup look(held, 2);
+    EXPECT_FALSE(look.lists(1));
+    const BodyHolding alone = look.of(2);
+    EXPECT_EQ(alone.owner, 2);
+    EXPECT_EQ(Words(alone.holders.begin(), alone.holders.end()), Words{2});
+    EXPECT_TRUE(look.lists(3));
+    EXPECT_EQ(look.of(3).owner, 1);
+    EXPECT_TRUE(look.lists(7));
+    EXPECT_FALSE(look.lists(8));
 }
 
 } // namespace
