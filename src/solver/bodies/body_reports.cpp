@@ -65,6 +65,18 @@ void clear(BodyReports<Exec>& reports)
     reports.taken = read(reports.totals.exec(), reports.totals.data()); // zero for all bodies
 }
 
+/// Begins rows of bodies that have come with nothing.
+template<class Exec>
+void clear_rows(const Exec& exec, dem::BodyTotals<Exec>& totals, const std::vector<std::int32_t>& come)
+{
+    Array<Exec, std::int32_t> rows(exec, "rows of bodies that have come");
+    rows.assign(come);
+    dem::BodyTotals<Exec> nothing(exec, "totals of bodies that have come", rows.size());
+    nothing.fill_zero();
+    decomp::unpack_rows(exec, reinterpret_cast<const std::uint32_t*>(nothing.data()), rows.size(),
+                        decomp::columns(totals.data()), rows.data(), 0);
+}
+
 } // namespace
 
 template<class Exec>
@@ -92,6 +104,7 @@ void BodyReports<Exec>::follow(const RowMoves<Exec>& moves)
     const std::vector<dem::BodyTotal> of_gone = theirs.to_host();
 
     take_rows(exec, moves.from, totals, 1);
+    clear_rows(exec, totals, moves.come);
     std::array<double, dem::body_total_width> sum{};
     for (const dem::BodyTotal& total : of_gone)
     {

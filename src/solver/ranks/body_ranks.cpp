@@ -169,9 +169,9 @@ void BodyRanks<Exec>::take_roles(const RowArrays<Exec>& arrays, const BodyHoldin
 template<class Exec>
 void BodyRanks<Exec>::move_rows(const RowArrays<Exec>& arrays, RowChange change)
 {
-    RowMoves<Exec>&                 moves = moves_.emplace(exec_);
-    const std::vector<std::int32_t> come  = negative(change.from);
-    moves.gone                            = negative(change.to);
+    RowMoves<Exec>& moves = moves_.emplace(exec_);
+    moves.come            = negative(change.from);
+    moves.gone            = negative(change.to);
     moves.from.assign(any_for_new(std::move(change.from)));
     moves.to.assign(change.to);
     const auto take = [&](auto& array) { take_rows(exec_, moves.from, array); };
@@ -185,7 +185,7 @@ void BodyRanks<Exec>::move_rows(const RowArrays<Exec>& arrays, RowChange change)
     take(arrays.pairs.sizes.is_large);
     take(arrays.bounding_radii);
     take(borders_.clear);
-    contact::keep_clearances(exec_, borders_, come, std::vector<contact::Clearance>(come.size()));
+    contact::keep_clearances(exec_, borders_, moves.come, std::vector<contact::Clearance>(moves.come.size()));
     arrays.pairs.displacement.search_radius.resize(moves.from.size());
     arrays.bodies.number.assign(numbers().all());
     dem::renumber_records(exec_, arrays.pairs, moves.to, moves.from.size());

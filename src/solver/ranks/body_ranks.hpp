@@ -29,7 +29,7 @@ struct RowArrays
     Array<Exec, double>& bounding_radii; ///< m
 };
 
-/// A change of rows in a backend's memory. Without a row before, `from` names any.
+/// A change of rows in a backend's memory. For a row without one before, `from` names any.
 template<class Exec>
 struct RowMoves
 {
@@ -42,6 +42,7 @@ struct RowMoves
     Array<Exec, std::int32_t> from;
     Array<Exec, std::int32_t> to;
     std::vector<std::int32_t> gone; ///< rows before whose bodies have gone
+    std::vector<std::int32_t> come; ///< rows now that had none before
 };
 
 /// Distribution of a scene's bodies over the ranks: moves states and contact records to the ranks that BodyOwners
