@@ -15,6 +15,8 @@ namespace
 // it.
 constexpr int success    = 0;
 constexpr int type_uint8 = 1;
+constexpr int type_int32 = 2;
+constexpr int maximum    = 2;
 
 } // namespace
 
@@ -32,6 +34,8 @@ struct NcclLibrary
     using Group       = int (*)();
     using Send        = int (*)(const void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
     using Receive     = int (*)(void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
+    using AllReduce   = int (*)(const void*, void*, std::size_t count, int type, int operation, void* comm,
+                              CUstream_st*);
     using ErrorString = const char* (*)(int);
 
     void*       handle        = nullptr;
@@ -42,6 +46,7 @@ struct NcclLibrary
     Group       group_end     = nullptr;
     Send        send          = nullptr;
     Receive     receive       = nullptr;
+    AllReduce   all_reduce    = nullptr;
     ErrorString error_string  = nullptr;
 
     template<class Function>
@@ -57,7 +62,7 @@ struct NcclLibrary
         return handle != nullptr && find(get_unique_id, "ncclGetUniqueId") && find(init_rank, "ncclCommInitRank") &&
                find(destroy, "ncclCommDestroy") && find(group_start, "ncclGroupStart") &&
                find(group_end, "ncclGroupEnd") && find(send, "ncclSend") && find(receive, "ncclRecv") &&
-               find(error_string, "ncclGetErrorString");
+               find(all_reduce, "ncclAllReduce") && find(error_string, "ncclGetErrorString");
     }
 
     void check(int result, const char* what) const
@@ -108,6 +113,11 @@ void Nccl::exchange(const Gpu& gpu, const MessageRanges& out, const std::byte* f
                    "send");
     }
     nccl.check(nccl.group_end(), "group end");
+}
+
+void Nccl::largest(const Gpu& gpu, std::int32_t* number)
+{
+    library_->check(library_->all_reduce(number, number, 1, type_int32, maximum, native_, gpu.stream), "all-reduce");
 }
 
 } // namespace tread::decomp

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -26,6 +27,9 @@ public:
     /// Enqueues sends and receives on the device's stream, in order with kernels launched before and after.
     void exchange(const Gpu& gpu, const MessageRanges& out, const std::byte* from, const MessageRanges& in,
                   std::byte* to);
+
+    /// Enqueues the replacement of a number in the device's memory by the largest of all ranks.
+    void largest(const Gpu& gpu, std::int32_t* number);
 
 private:
     std::unique_ptr<NcclLibrary> library_;

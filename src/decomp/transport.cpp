@@ -90,6 +90,21 @@ Transport<Exec>::Transport(const Communicator& communicator, const Exec& exec, T
 }
 
 template<class Exec>
+void Transport<Exec>::largest(std::int32_t* number)
+{
+    if constexpr (is_gpu<Exec>)
+    {
+        if (carrier_ == Carrier::nccl)
+        {
+            nccl_->largest(exec_, number);
+            return;
+        }
+    }
+    const auto all = static_cast<std::int32_t>(communicator_.maximum(read(exec_, number)));
+    copy_from_host(exec_, number, &all, sizeof(all));
+}
+
+template<class Exec>
 int Transport<Exec>::open_channel()
 {
     if (channels_ == most_channels) { throw EnvironmentError("transport: too many kinds of messages"); }

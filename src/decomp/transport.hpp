@@ -43,6 +43,10 @@ public:
     /// "pinned host memory (this MPI does not know GPUs)", for the log.
     const std::string& description() const { return description_; }
 
+    /// Replaces a number in the backend's memory by the largest of all ranks, in order with launches. NCCL does so
+    /// without the host; else it waits.
+    void largest(std::int32_t* number);
+
     /// Returns a new channel number, so that messages of different kinds never match each other.
     int open_channel();
 

@@ -3,8 +3,8 @@
 #include "rank_run.hpp"
 #include "solver/bodies/dem_solver.hpp"
 
-// Lifetime of a list of pairs on several ranks, which look ahead together between batches of substeps; on one rank the
-// substeps look themselves (unit/solver/rigid_lists.cpp).
+// Lifetime of a list of pairs on several ranks, which agree on what bodies find as they look ahead; on one rank:
+// unit/solver/rigid_lists.cpp.
 namespace tread
 {
 namespace
@@ -46,9 +46,9 @@ class ListsOfRanks : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(ListsOfRanks, test::Backends, test::BackendNames);
 
-/// The ball moves 1 mm in two substeps, and lists of bodies at rest allow 0.15: the check that detects it is requested
-/// after the first substep, and read back after the second.
-TYPED_TEST(ListsOfRanks, LookIsAppliedABatchLater)
+/// The ball moves 0.5 mm in a substep, and lists of bodies at rest allow 0.15: the rank that owns it sees so after the
+/// first substep, and all ranks end with the second.
+TYPED_TEST(ListsOfRanks, AllEndWithTheLastSubstepThatTheListServes)
 {
     const scene::Scene               scene = test::load_text(balls());
     world::World                     world = world::build_world(scene);
@@ -62,18 +62,21 @@ TYPED_TEST(ListsOfRanks, LookIsAppliedABatchLater)
     copy_from_host(this->exec(), rigid.view().velocity + 1, &velocity, sizeof(velocity));
     rigid.stage();
     const solver::TimeStep ten{step, 10, ""};
-    ASSERT_EQ(rigid.substeps_without_check(ten, 5, 0), 1);
-    const auto run_one = [&]
+    rigid.begin_substeps(ten, 5, 0);
+    ASSERT_EQ(rigid.until_agreement(), 1);
+    const auto run = [&](int substeps)
     {
-        rigid.run(step / 10, 0, 1);
+        for (int substep = 0; substep < substeps; ++substep)
+        {
+            rigid.run(step / 10, 0, 1);
+            if (rigid.must_agree()) { rigid.agree_on_list(); }
+        }
         return rigid.take_done(step / 10);
     };
-    ASSERT_EQ(run_one(), 1);
-    EXPECT_FALSE(rigid.find_pairs_if_displaced(ten, 1, 1, 0)) << "nobody has looked before";
-    ASSERT_EQ(run_one(), 1);
-    EXPECT_TRUE(rigid.find_pairs_if_displaced(ten, 1, 2, 0));
-    ASSERT_EQ(run_one(), 1);
-    EXPECT_FALSE(rigid.find_pairs_if_displaced(ten, 1, 3, 0)) << "the new list knows its speed";
+    EXPECT_EQ(run(10), 2);
+    EXPECT_TRUE(rigid.find_pairs_if_displaced(ten, 2, 0));
+    EXPECT_EQ(run(8), 8) << "the new list knows its speed";
+    EXPECT_FALSE(rigid.find_pairs_if_displaced(ten, 10, 0));
 }
 
 } // namespace

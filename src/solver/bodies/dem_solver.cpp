@@ -121,21 +121,17 @@ std::int64_t DemSolver<Exec>::steps_without_check(double dt, double speed) const
 }
 
 template<class Exec>
-std::int64_t DemSolver<Exec>::substeps_without_check(const TimeStep& step, double speed, double contact_time)
+void DemSolver<Exec>::begin_substeps(const TimeStep& step, double speed, double contact_time)
 {
-    return solver::substeps_without_check(state_, lists_, step, bound(speed), contact_time);
+    solver::begin_substeps(state_, lists_, step, bound(speed), contact_time);
 }
 
 /// The list is built for a whole step, so that it may serve the next. Nobody wakes within a step: the substep was
 /// chosen for those that are awake.
 template<class Exec>
-bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time)
+bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t done, double time)
 {
-    if (!is_displaced_too_far(state_, lists_))
-    {
-        if (lists_.between_batches()) { request_lookahead(state_, lists_, step, batch, done); }
-        return false;
-    }
+    if (!std::exchange(lists_.expired, false)) { return false; }
     const double dt = step.dt / static_cast<double>(step.substeps);
     check_before_search(state_, reports_, time + dt * static_cast<double>(done));
     return renew_pairs(step.dt, UnheldRows::stay);
@@ -155,7 +151,7 @@ void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches
     step.limit.repeated      = nullptr;
     if (shares())
     {
-        dem::share_wrenches(state_.exec, step);
+        dem::share_wrenches(substep_exec(), step);
         state_.ranks->shared().exchange_wrenches();
     }
     dem::move_bodies(substep_exec(), step);

@@ -41,8 +41,8 @@ struct ContactCount
 ///
 /// - 1, command: BodyCommands set what named bodies are held or driven to;
 /// - 3, find_pairs: PairLists renew the list of pairs;
-/// - 4, contact and move, or run: the substeps, in batches with take_done after each and find_pairs_if_displaced
-///   between them;
+/// - 4, begin_substeps, then contact and move, or run; take_done, and find_pairs_if_displaced where fewer substeps were
+///   done than requested;
 /// - 7, request_report and report: BodyReports sum up the steps since the last report.
 ///
 /// Output is named_bodies, fields, census and contacts (body_output.hpp, contact_records.hpp).
@@ -154,15 +154,19 @@ public:
     /// anything.
     std::int64_t steps_without_check(double dt, double speed) const;
 
-    /// Returns the number of substeps that may be requested together, called before the substeps of a step. `speed`:
-    /// m/s, the largest of anything; `contact_time`: s, the smallest sqrt(m / sum K) of a body, 0 = no contact.
-    /// find_pairs_if_displaced is due after each batch that is not the step's last.
-    std::int64_t substeps_without_check(const TimeStep& step, double speed, double contact_time);
+    /// Begins the substeps of a step. `speed`: m/s, the largest of anything; `contact_time`: s, the smallest
+    /// sqrt(m / sum K) of a body, 0 = no contact. All may be requested together, on several ranks until must_agree().
+    void begin_substeps(const TimeStep& step, double speed, double contact_time);
 
-    /// Call between two batches, after `done` substeps of a step that began at `time` (s). Rebuilds the pair list if it
-    /// does not serve the next batch (is_displaced_too_far); where it does, several ranks request the check for the
-    /// next two. Returns whether the list was rebuilt.
-    bool find_pairs_if_displaced(const TimeStep& step, std::int64_t batch, std::int64_t done, double time);
+    /// Number of substeps that may be requested until several ranks must agree whether the pair list has expired, and
+    /// whether they must now, by agree_on_list(), which is collective.
+    std::int64_t until_agreement() const { return state_.ranks ? lists_.until_look() : PairLists<Exec>::endless; }
+    bool         must_agree() const { return state_.ranks && lists_.has_looked(); }
+    void         agree_on_list() { solver::agree_on_list(state_, lists_); }
+
+    /// Call where take_done() was fewer than requested, after `done` substeps of a step that began at `time` (s).
+    /// Rebuilds the pair list if it has expired, and returns whether it has.
+    bool find_pairs_if_displaced(const TimeStep& step, std::int64_t done, double time);
 
     /// Step 4. Call before the substeps of a step, and where the pair list was rebuilt in it.
     void list_moved(const dem::OutsideWrenches& outside);

@@ -129,8 +129,8 @@ bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, dou
 }
 
 template<class Exec>
-std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step,
-                                    const MotionBound& motion, double contact_time)
+void begin_substeps(const BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step,
+                    const MotionBound& motion, double contact_time)
 {
     lists.begin(step);
     const auto   number = static_cast<double>(step.substeps);
@@ -138,12 +138,16 @@ std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec
                  fall         = motion.acceleration * step.dt;
     const double unseen       = reserve / (dt * (hit_twice * motion.speed + fall)); // in substeps
     lists.checked_within_step = number > unseen;
-    lists.in_substeps         = lists.checked_within_step && !state.ranks;
-    if (!lists.checked_within_step) { return step.substeps; }
+    if (!lists.checked_within_step) { return; }
     const double soon  = std::min(contact_time / dt, reserve / (dt * (hit_soon * motion.speed + fall)));
     const double batch = std::max(unseen, soon) / static_cast<double>(dem::batches_ahead);
     lists.batch        = static_cast<std::int64_t>(std::clamp(batch, 1.0, number));
-    return lists.in_substeps ? step.substeps : lists.batch;
+}
+
+template<class Exec>
+void agree_on_list(BodyState<Exec>& state, PairLists<Exec>& lists)
+{
+    state.ranks->largest(lists.substeps.data());
 }
 
 double unchecked_span(double smallest_radius, const MotionBound& motion)
@@ -163,30 +167,9 @@ std::int64_t steps_without_check(const BodyState<Exec>& state, double dt, const 
 }
 
 template<class Exec>
-bool is_displaced_too_far(const BodyState<Exec>& state, PairLists<Exec>& lists)
-{
-    if (std::exchange(lists.expired, false)) { return true; }
-    if (!std::exchange(lists.lookahead_pending, false)) { return false; }
-    lists.lookahead_done.wait();
-    return largest_over_ranks(state.communicator(), lists.lookahead.get()) > 1;
-}
-
-template<class Exec>
-void request_lookahead(BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step, std::int64_t batch,
-                       std::int64_t done)
-{
-    const double dt    = step.dt / static_cast<double>(step.substeps);
-    const double ahead = dt * static_cast<double>(std::min(dem::batches_ahead * batch, step.substeps - done));
-    lists.lookahead.request(displacement_ahead(state, lists, ahead));
-    lists.lookahead_done.mark();
-    lists.lookahead_pending = true;
-}
-
-template<class Exec>
 void PairLists<Exec>::begin(const TimeStep& next)
 {
-    lookahead_pending = expired = in_substeps = false;
-
+    expired    = false;
     of_step    = next.substeps;
     substep_dt = next.dt / static_cast<double>(next.substeps);
     done = requested = 0;
@@ -196,7 +179,7 @@ void PairLists<Exec>::begin(const TimeStep& next)
 template<class Exec>
 dem::DisplacementLimit PairLists<Exec>::limit(BodyState<Exec>& state)
 {
-    if (!in_substeps) { return {}; }
+    if (!checked_within_step) { return {}; }
     return {displacements.position.data(),
             displacements.orientation.data(),
             state.pairs.displacement.allowed.data(),
@@ -213,7 +196,7 @@ template<class Exec>
 std::int64_t PairLists<Exec>::take_done(const Exec& exec)
 {
     const std::int64_t before = std::exchange(done, requested);
-    if (!in_substeps) { return done - before; }
+    if (!checked_within_step) { return done - before; }
     last = read(exec, substeps.data());
     if (last != 0 && last <= requested)
     {
@@ -263,11 +246,10 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template struct PairLists<Exec>;                                                                                   \
     template bool         update_pairs(BodyState<Exec>&, PairLists<Exec>&, double, double, UnheldRows);                \
-    template std::int64_t substeps_without_check(const BodyState<Exec>&, PairLists<Exec>&, const TimeStep&,            \
-                                                 const MotionBound&, double);                                          \
-    template std::int64_t steps_without_check(const BodyState<Exec>&, double, const MotionBound&);                     \
-    template bool         is_displaced_too_far(const BodyState<Exec>&, PairLists<Exec>&);                              \
-    template void request_lookahead(BodyState<Exec>&, PairLists<Exec>&, const TimeStep&, std::int64_t, std::int64_t)
+    template void begin_substeps(const BodyState<Exec>&, PairLists<Exec>&, const TimeStep&, const MotionBound&,        \
+                                 double);                                                                              \
+    template void agree_on_list(BodyState<Exec>&, PairLists<Exec>&);                                                   \
+    template std::int64_t steps_without_check(const BodyState<Exec>&, double, const MotionBound&)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

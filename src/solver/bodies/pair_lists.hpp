@@ -1,9 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
-#include "backend/async_readback.hpp"
-#include "backend/event.hpp"
 #include "kernels/dem/pairs/displacement_limit.hpp"
 #include "kernels/dem/pairs/displacement_tracker.hpp"
 #include "solver/bodies/body_state.hpp"
@@ -13,15 +12,13 @@
 namespace tread::solver
 {
 
-/// Lifetime of the list of pairs: how far bodies have moved since it was built, the checks whether it is still valid,
-/// and their readback.
+/// Lifetime of the list of pairs: how far bodies have moved since it was built, and the checks whether it is still
+/// valid.
 template<class Exec>
 struct PairLists
 {
     explicit PairLists(const Exec& exec)
         : displacements(exec)
-        , lookahead(exec, "body displacement ahead on the host")
-        , lookahead_done(exec)
         , substeps(exec, "substeps of a list", 2)
     {
         substeps.fill_zero();
@@ -30,8 +27,16 @@ struct PairLists
     /// Limit of displacements for the next substep; empty where no substep looks.
     dem::DisplacementLimit limit(BodyState<Exec>& state);
 
-    /// Whether looks are launches between batches of substeps.
-    bool between_batches() const { return checked_within_step && !in_substeps; }
+    /// Whether the substeps requested so far end with one in which bodies look ahead.
+    bool has_looked() const { return checked_within_step && requested % batch == 0 && requested < of_step; }
+
+    static constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
+
+    /// Number of substeps until bodies look ahead, at least one; endless where none does.
+    std::int64_t until_look() const
+    {
+        return checked_within_step ? batch - requested % batch : endless;
+    }
 
     /// Begins the substeps of a step.
     void begin(const TimeStep& next);
@@ -44,14 +49,10 @@ struct PairLists
     void transfer(StateFile& file, BodyState<Exec>& state);
 
     dem::DisplacementTracker<Exec> displacements;
-    AsyncReadback<Exec, double>    lookahead; ///< largest share of an allowed displacement, extrapolated
-    Event<Exec>                    lookahead_done;
-    bool                           lookahead_pending   = false; ///< a check was requested and not used yet
     bool                           listed              = false; ///< whether pairs were found
-    bool                           checked_within_step = false; ///< the list is also checked within the step
+    bool                           checked_within_step = false; ///< the substeps of a step look ahead, too
     std::int64_t                   partition_version   = 0;     ///< counts assignments of bodies to ranks
 
-    bool                      in_substeps = false; ///< the substeps of this step look ahead themselves
     bool                      expired     = false; ///< the substeps have ended with the last that the list serves
     std::int32_t              last        = 0;     ///< DisplacementLimit::last as it was read last
     std::int64_t              done        = 0;     ///< substeps of this step
@@ -69,28 +70,19 @@ struct PairLists
 template<class Exec>
 bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps, UnheldRows unheld);
 
-/// Chooses whether the list is checked within the step, and returns the number of substeps that may be requested
-/// together: all on one rank, where the substeps look ahead themselves. Several ranks have to agree after each batch,
-/// by request_lookahead and is_displaced_too_far; both ways a list expires after the same substeps. `contact_time`: s,
-/// the smallest sqrt(m / sum K) of a body, 0 = no contact.
+/// Begins the substeps of a step, and chooses whether and how often bodies look ahead in them. `contact_time`: s, the
+/// smallest sqrt(m / sum K) of a body, 0 = no contact.
 template<class Exec>
-std::int64_t substeps_without_check(const BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step,
-                                    const MotionBound& motion, double contact_time);
+void begin_substeps(const BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step,
+                    const MotionBound& motion, double contact_time);
+
+/// Call after as many substeps as PairLists::until_look says, on several ranks: a list that is to expire for one does
+/// so for all after the same substep. Collective.
+template<class Exec>
+void agree_on_list(BodyState<Exec>& state, PairLists<Exec>& lists);
 
 /// Number of steps of dt (s) for which the list needs no check; at least one.
 template<class Exec>
 std::int64_t steps_without_check(const BodyState<Exec>& state, double dt, const MotionBound& motion);
-
-/// Whether the list expired in the last batch of substeps, or, on several ranks, the check requested before that batch
-/// says that a body may move too far in the next. Collective; waits for the readback. False if no check was requested:
-/// a new list is valid for two batches.
-template<class Exec>
-bool is_displaced_too_far(const BodyState<Exec>& state, PairLists<Exec>& lists);
-
-/// Requests the check after `done` substeps of a step, for the next two batches, so that the backend computes during
-/// the readback.
-template<class Exec>
-void request_lookahead(BodyState<Exec>& state, PairLists<Exec>& lists, const TimeStep& step, std::int64_t batch,
-                       std::int64_t done);
 
 } // namespace tread::solver

@@ -46,7 +46,7 @@ bool run_in_one_launch(const ContactSubsteps<Exec, Real>& parts, double dt, std:
 }
 
 template<class Exec, class Real>
-void run_unchecked(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t count, StageClock& clock)
+void run_together(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t count, StageClock& clock)
 {
     if (parts.plan.body_contact && parts.coupling == nullptr)
     {
@@ -55,6 +55,20 @@ void run_unchecked(const ContactSubsteps<Exec, Real>& parts, double dt, std::int
     else if (!run_in_one_launch(parts, dt, count, clock))
     {
         for (std::int64_t substep = 0; substep < count; ++substep) { coupled_substep(parts, dt, clock); }
+    }
+}
+
+/// Requests `count` substeps; those after the last that the list of pairs serves do nothing, on all ranks.
+template<class Exec, class Real>
+void run_unchecked(const ContactSubsteps<Exec, Real>& parts, double dt, std::int64_t count, StageClock& clock)
+{
+    for (std::int64_t requested = 0; requested < count;)
+    {
+        const std::int64_t next = std::min(count - requested, parts.bodies.until_agreement());
+        run_together(parts, dt, next, clock);
+        requested += next;
+        if (!parts.bodies.must_agree()) { continue; }
+        clock.run(parts.exec, stage::pairs, [&] { parts.bodies.agree_on_list(); });
     }
 }
 
@@ -96,13 +110,14 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
                   StageClock& clock)
 {
     const double dt         = step.dt / static_cast<double>(step.substeps);
-    const auto   batch      = parts.plan.body_contact
-                                  ? parts.bodies.substeps_without_check(step, pace.largest_speed, pace.shortest_contact)
-                                  : step.substeps;
     const auto   list_moved = [&]
     {
         if (parts.coupling != nullptr) { parts.bodies.list_moved(parts.coupling->wrenches()); }
     };
+    if (parts.plan.body_contact)
+    {
+        parts.bodies.begin_substeps(step, pace.largest_speed, pace.shortest_contact);
+    }
     list_moved();
     for (std::int64_t done = 0; done < step.substeps;)
     {
@@ -111,12 +126,12 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
             clock.run(parts.exec, stage::pairs,
                       [&]
                       {
-                          if (!parts.bodies.find_pairs_if_displaced(step, batch, done, time)) { return; }
+                          if (!parts.bodies.find_pairs_if_displaced(step, done, time)) { return; }
                           follow_rows(parts);
                           list_moved();
                       });
         }
-        done += run_batch(parts, dt, done, std::min(step.substeps - done, batch), clock);
+        done += run_batch(parts, dt, done, step.substeps - done, clock);
     }
 }
 

@@ -71,6 +71,9 @@ public:
     /// Order of the bodies in files; valid until they change owners.
     BodyBlocks blocks() const { return {communicator(), owners_.owned(), owners_.numbers()}; }
 
+    /// Replaces a number in the backend's memory by the largest of all ranks.
+    void largest(std::int32_t* number) { decomposition_.transport.largest(number); }
+
     // Not collective.
     /// Gives every body a row, for a state whose owners are not known. After it write_rows() is due.
     void take_all();
