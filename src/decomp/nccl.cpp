@@ -34,8 +34,7 @@ struct NcclLibrary
     using Group       = int (*)();
     using Send        = int (*)(const void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
     using Receive     = int (*)(void*, std::size_t count, int type, int peer, void* comm, CUstream_st*);
-    using AllReduce   = int (*)(const void*, void*, std::size_t count, int type, int operation, void* comm,
-                              CUstream_st*);
+    using AllReduce = int (*)(const void*, void*, std::size_t count, int type, int operation, void* comm, CUstream_st*);
     using ErrorString = const char* (*)(int);
 
     void*       handle        = nullptr;

@@ -142,7 +142,7 @@ TYPED_TEST(Guards, BodyBeyondItsSearchStopsTheRunByName)
     rigid.command(std::vector<solver::BodyCommand>(2));
     rigid.find_pairs(1e-3);
     rigid.begin_substeps({1e-3, 10, ""}, 0, 0); // nothing moves: nobody watches
-    const Vec3<double> thrown(0, 5, 0); // 5 mm in the step; 1 % of 50 mm are allowed
+    const Vec3<double> thrown(0, 5, 0);         // 5 mm in the step; 1 % of 50 mm are allowed
     copy_from_host(exec, rigid.view().velocity + 1, &thrown, sizeof(thrown));
     rigid.stage();
     rigid.contact(1e-3);

@@ -187,8 +187,7 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps, double diameter, do
         run.advance();
         if (::testing::Test::HasFatalFailure()) { return; }
     }
-    std::printf("%d ghosts have the bits of their owners\n",
-                test::compare_holders(run.together.simulation().rigid()));
+    std::printf("%d ghosts have the bits of their owners\n", test::compare_holders(run.together.simulation().rigid()));
     const io::BodyFields one = run.alone.simulation().body_fields(), all = run.bodies_together();
     const double         places = test::difference(one.position, all.position, diameter),
                  speeds         = test::difference(one.velocity, all.velocity, 1.0),
@@ -218,7 +217,7 @@ TYPED_TEST(BodiesOfRanks, AHeapOfRocksMigrates)
                                     heap_slabs(this->ranks()));
     const auto                  before = run.bodies_together().position;
     expect_as_alone(run, 200, 0.01, 1e-8);
-    const int moved = migrated(run, before, run.bodies_together().position);
+    const int moved  = migrated(run, before, run.bodies_together().position);
     const int ghosts = test::compare_holders(run.together.simulation().rigid());
     std::printf("%d of 1000 rocks changed their rank, %d ghosts are left\n", moved, ghosts);
     if (this->ranks() > 1)

@@ -43,8 +43,7 @@ void expect_as_alone(test::SideBySide<Exec>& run, int steps)
         run.alone.simulation().census(); // as for a row of the time series: points may change ranks there, too
         run.together.simulation().census();
     }
-    std::printf("%d ghosts have the bits of their owners\n",
-                test::compare_holders(run.together.simulation().rigid()));
+    std::printf("%d ghosts have the bits of their owners\n", test::compare_holders(run.together.simulation().rigid()));
     const io::BodyFields one = run.alone.simulation().body_fields(), all = run.bodies_together();
     const double         places = test::difference(one.position, all.position, 0.1),
                  speeds         = test::difference(one.velocity, all.velocity, 1.0);

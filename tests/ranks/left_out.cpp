@@ -139,8 +139,8 @@ TEST(LeftOutOnRanks, ASearchThatChangesNoHolderExchangesNoBodies)
     Counters                   counters;
     test::RankRun<Cpu, double> run(Cpu{&counters}, drifting, test::Ranks::all,
                                    [](const mpm::Index3& page) { return page.y & 1; });
-    solver::DemSolver<Cpu>& rigid = run.simulation().rigid();
-    const double            dt    = 1e-3; // s
+    solver::DemSolver<Cpu>&    rigid = run.simulation().rigid();
+    const double               dt    = 1e-3; // s
     rigid.command(std::vector<solver::BodyCommand>(2));
     rigid.find_pairs(dt);
     EXPECT_EQ(rigid.shares(), test::world().rank() < 2);

@@ -96,10 +96,10 @@ int compare_holders(solver::DemSolver<Exec>& rigid)
     const std::vector<std::int32_t> role = rigid.bodies().role.to_host();
     const auto position = rigid.bodies().position.to_host(), velocity = rigid.bodies().velocity.to_host(),
                spin = rigid.bodies().angular_velocity.to_host(), force = rigid.bodies().force.to_host(),
-               torque                    = rigid.bodies().torque.to_host();
-    const std::vector<Quat>   turned     = rigid.bodies().orientation.to_host();
-    const std::vector<double> stiffness  = rigid.bodies().stiffness.to_host();
-    const std::vector<double> allowed    = rigid.pairs().displacement.allowed.to_host();
+               torque                   = rigid.bodies().torque.to_host();
+    const std::vector<Quat>   turned    = rigid.bodies().orientation.to_host();
+    const std::vector<double> stiffness = rigid.bodies().stiffness.to_host();
+    const std::vector<double> allowed   = rigid.pairs().displacement.allowed.to_host();
     std::vector<State>        held;
     for (std::size_t row = 0; row < role.size(); ++row)
     {

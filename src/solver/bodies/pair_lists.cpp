@@ -243,12 +243,12 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     pairs.peak.assign(peaks);
 }
 
-#define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template struct PairLists<Exec>;                                                                                   \
-    template bool         update_pairs(BodyState<Exec>&, PairLists<Exec>&, double, double, UnheldRows);                \
-    template void begin_substeps(const BodyState<Exec>&, PairLists<Exec>&, const TimeStep&, const MotionBound&,        \
-                                 double);                                                                              \
-    template void agree_on_list(BodyState<Exec>&, PairLists<Exec>&);                                                   \
+#define TREAD_INSTANTIATE(Exec)                                                                                         \
+    template struct PairLists<Exec>;                                                                                    \
+    template bool         update_pairs(BodyState<Exec>&, PairLists<Exec>&, double, double, UnheldRows);                 \
+    template void         begin_substeps(const BodyState<Exec>&, PairLists<Exec>&, const TimeStep&, const MotionBound&, \
+                                         double);                                                                       \
+    template void         agree_on_list(BodyState<Exec>&, PairLists<Exec>&);                                            \
     template std::int64_t steps_without_check(const BodyState<Exec>&, double, const MotionBound&)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

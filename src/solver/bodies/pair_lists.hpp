@@ -33,10 +33,7 @@ struct PairLists
     static constexpr std::int64_t endless = std::numeric_limits<std::int64_t>::max();
 
     /// Number of substeps until bodies look ahead, at least one; endless where none does.
-    std::int64_t until_look() const
-    {
-        return checked_within_step ? batch - requested % batch : endless;
-    }
+    std::int64_t until_look() const { return checked_within_step ? batch - requested % batch : endless; }
 
     /// Begins the substeps of a step.
     void begin(const TimeStep& next);
@@ -53,14 +50,14 @@ struct PairLists
     bool                           checked_within_step = false; ///< the substeps of a step look ahead, too
     std::int64_t                   partition_version   = 0;     ///< counts assignments of bodies to ranks
 
-    bool                      expired     = false; ///< the substeps have ended with the last that the list serves
-    std::int32_t              last        = 0;     ///< DisplacementLimit::last as it was read last
-    std::int64_t              done        = 0;     ///< substeps of this step
-    std::int64_t              requested   = 0;     ///< likewise
-    std::int64_t              of_step     = 1;     ///< all substeps of this step
-    double                    substep_dt  = 0;     ///< s
-    std::int64_t              batch       = 1;     ///< DisplacementLimit::batch
-    Array<Exec, std::int32_t> substeps;            ///< DisplacementLimit::last and repeated
+    bool                      expired    = false; ///< the substeps have ended with the last that the list serves
+    std::int32_t              last       = 0;     ///< DisplacementLimit::last as it was read last
+    std::int64_t              done       = 0;     ///< substeps of this step
+    std::int64_t              requested  = 0;     ///< likewise
+    std::int64_t              of_step    = 1;     ///< all substeps of this step
+    double                    substep_dt = 0;     ///< s
+    std::int64_t              batch      = 1;     ///< DisplacementLimit::batch
+    Array<Exec, std::int32_t> substeps;           ///< DisplacementLimit::last and repeated
 };
 
 /// Lists pairs of bodies, and of bodies and walls, that may touch within dt (s), and what stiffness to expect of their

@@ -114,10 +114,7 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
     {
         if (parts.coupling != nullptr) { parts.bodies.list_moved(parts.coupling->wrenches()); }
     };
-    if (parts.plan.body_contact)
-    {
-        parts.bodies.begin_substeps(step, pace.largest_speed, pace.shortest_contact);
-    }
+    if (parts.plan.body_contact) { parts.bodies.begin_substeps(step, pace.largest_speed, pace.shortest_contact); }
     list_moved();
     for (std::int64_t done = 0; done < step.substeps;)
     {

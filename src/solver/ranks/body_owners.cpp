@@ -138,8 +138,7 @@ void BodyOwners::restore(std::vector<std::int32_t> numbers, const std::vector<st
     set(std::move(numbers), std::move(roles));
 }
 
-contact::BorderReach BodyOwners::lasting_reach(const contact::BorderReach&  last,
-                                               const std::array<double, 2>& met) const
+contact::BorderReach BodyOwners::lasting_reach(const contact::BorderReach& last, const std::array<double, 2>& met) const
 {
     // As far as a body may be from the pages of its owner.
     const double slack = (owner_slack + decision_margin) * lattice_.spacing;

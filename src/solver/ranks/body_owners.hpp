@@ -19,7 +19,7 @@ namespace tread::solver
 /// Bodies that the owner decides about, and the ball of each within which other ranks matter.
 struct BodiesAtBorders
 {
-    std::vector<std::int32_t>  row; ///< ascending
+    std::vector<std::int32_t>  row;  ///< ascending
     const contact::BorderBody* ball; ///< of each
 };
 

@@ -250,7 +250,7 @@ void BodyRanks<Exec>::transfer(StateFile& file)
 }
 
 template<class Exec>
-contact::BorderReach BodyRanks<Exec>::reach_of(const RowArrays<Exec>& arrays)
+contact::BorderReach BodyRanks<Exec>::border_reach(const RowArrays<Exec>& arrays)
 {
     std::array<double, 2> met =
         contact::largest_reaches(exec_, arrays.bounding_radii.data(), arrays.pairs, arrays.bodies.view());
@@ -261,7 +261,7 @@ contact::BorderReach BodyRanks<Exec>::reach_of(const RowArrays<Exec>& arrays)
 template<class Exec>
 BodyHoldings BodyRanks<Exec>::decide(const RowArrays<Exec>& arrays)
 {
-    const contact::BorderReach reach = reach_of(arrays);
+    const contact::BorderReach reach = border_reach(arrays);
     if (reach.met_by_large < reach_.met_by_large || reach.met_by_small < reach_.met_by_small)
     {
         contact::forget_clearances(exec_, borders_); // made while bodies reached further than what now may meet them

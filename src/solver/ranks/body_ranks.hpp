@@ -59,9 +59,9 @@ public:
     /// dem::allow_displacement.
     void sum_wanted_displacement(dem::Pairs<Exec>& pairs) const;
 
-    /// Moves bodies, with their contact records, to the ranks that now own them, and sends ghosts to the ranks that hold
-    /// them from now on. Those that held them before have moved them like the owner, and have their state to the bit.
-    /// Call between dem::allow_displacement and dem::list_pairs.
+    /// Moves bodies, with their contact records, to the ranks that now own them, and sends ghosts to the ranks that
+    /// hold them from now on. Those that held them before have moved them like the owner, and have their state to the
+    /// bit. Call between dem::allow_displacement and dem::list_pairs.
     void assign_owners(const RowArrays<Exec>& arrays, UnheldRows unheld);
 
     /// Saves or loads who has rows, owns and holds which body, as part of an exact state; the owners of pages are
@@ -100,11 +100,11 @@ private:
     void                 follow_pages();
     BodyHoldings         own_shared() const;
     BodyHoldings         decide(const RowArrays<Exec>& arrays);
-    contact::BorderReach reach_of(const RowArrays<Exec>& arrays);
-    void                 exchange_bodies(const RowArrays<Exec>& arrays, const BodyHoldings& decided, OwnerChanges change,
-                                         UnheldRows unheld);
-    void                 take_roles(const RowArrays<Exec>& arrays, const BodyHoldings& changes, UnheldRows unheld);
-    void                 move_rows(const RowArrays<Exec>& arrays, RowChange change);
+    contact::BorderReach border_reach(const RowArrays<Exec>& arrays);
+    void exchange_bodies(const RowArrays<Exec>& arrays, const BodyHoldings& decided, OwnerChanges change,
+                         UnheldRows unheld);
+    void take_roles(const RowArrays<Exec>& arrays, const BodyHoldings& changes, UnheldRows unheld);
+    void move_rows(const RowArrays<Exec>& arrays, RowChange change);
 
     decomp::Decomposition<Exec>&            decomposition_;
     Exec                                    exec_;

@@ -51,10 +51,10 @@ private:
     void pass_on(Shares<Share>& shares);
 
     std::vector<std::int32_t>   number_; ///< [count], ascending
-    Array<Exec, std::int32_t>   body_;  ///< [count], rows, ascending
-    Array<Exec, std::int32_t>   place_; ///< [rows], index in body_; -1: not shared
-    Array<Exec, std::int32_t>   first_; ///< [count + 1], first share of each body
-    Array<Exec, std::int32_t>   row_;   ///< row of each share
+    Array<Exec, std::int32_t>   body_;   ///< [count], rows, ascending
+    Array<Exec, std::int32_t>   place_;  ///< [rows], index in body_; -1: not shared
+    Array<Exec, std::int32_t>   first_;  ///< [count + 1], first share of each body
+    Array<Exec, std::int32_t>   row_;    ///< row of each share
     Shares<dem::WrenchShare>    wrench_;
     Shares<dem::StiffnessShare> stiffness_;
     Shares<double>              speed_;

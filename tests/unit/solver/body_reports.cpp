@@ -18,7 +18,7 @@ class BodyReportsOfRows : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(BodyReportsOfRows, test::Backends, test::BackendNames);
 
-/// Of three bodies the second goes, and another comes before the third; the last row is of those that have gone.
+/// The second of three bodies goes, and another comes before the third; the last row is of those that have gone.
 TYPED_TEST(BodyReportsOfRows, BodiesThatComeHaveNoTotalsAndThoseThatGoLeaveThem)
 {
     solver::BodyReports<TypeParam> reports(this->exec(), 4);
