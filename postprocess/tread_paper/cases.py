@@ -44,11 +44,19 @@ def drop(paper):
     return figure_of("Section 3.2: the wheel falls 0.7 m (Fig. 10 d)", histories(paper, DROPS), panels)
 
 
+def last_of(label, history):
+    """(label, run, number) of the last snapshot with displacements. The label says since when the last phase began, where that phase went on."""
+    run = history.run
+    number = fields.last_snapshot(run)
+    since = (run.points(number) or run.bodies(number)).time - history.start
+    return (f"{label}, at {since:.1f} s" if since < history.time[-1] - 0.05 else label), run, number
+
+
 def at_the_end(title, named):
     """Displacement in the last snapshot of each run that has any."""
     def draw(paper):
-        with_any = [(label, [one.run for one in repeats if one.run.snapshots]) for label, repeats in histories(paper, named)]
-        shown = [(label, runs[0], fields.last_snapshot(runs[0])) for label, runs in with_any if runs]
+        with_any = [(label, [one for one in repeats if one.run.snapshots]) for label, repeats in histories(paper, named)]
+        shown = [last_of(label, repeats[0]) for label, repeats in with_any if repeats]
         if not shown:
             raise Absent(f"no snapshots of {', '.join(name for name, _ in named)}")
         return fields.figure_of(title, shown, common_scale=False)

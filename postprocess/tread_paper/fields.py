@@ -163,7 +163,8 @@ def _sand_and_rocks(axis, run, number, norm, near, terrain):
 
 
 def last_snapshot(run):
-    return run.snapshots[-1]
+    """Number of the last snapshot that says how far the terrain has moved; of the last one where none does."""
+    return next((number for number in reversed(run.snapshots) if (_terrain(run, number)[1] != UNKNOWN).any()), run.snapshots[-1])
 
 
 def _largest(moved):

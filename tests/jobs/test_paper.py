@@ -27,7 +27,7 @@ import pack_docs  # noqa: E402
 import paper  # noqa: E402
 from made_up_run import DRIVEN, MORE, SCENE, SPEED, STARTS, colours_of, make_run, write_columns  # noqa: E402
 from tread_paper import fields, sensitivity  # noqa: E402
-from tread_paper.cases import FIGURES, SLIPS  # noqa: E402
+from tread_paper.cases import FIGURES, SLIPS, last_of  # noqa: E402
 from tread_paper.document import Document, put_into  # noqa: E402
 from tread_paper.history import history_of, smoothed  # noqa: E402
 from tread_paper.measures import Absent, Measures  # noqa: E402
@@ -129,6 +129,22 @@ class PaperTest(unittest.TestCase):
             with h5py.File(folder / f"thinned_{every}" / "snapshots" / "bodies_0007.h5") as file:
                 self.assertEqual("displacement" in file, known)
             self.assertEqual(grey_in(fields.figure_of("any", [("any", Run(folder / f"thinned_{every}"), 7)])), not known)
+
+    def test_the_last_displacements_of_rocks_are_shown_with_their_time(self):
+        folder = self.runs.parent / "last"
+        shutil.copytree(self.runs / "slip_sand", folder / "run")
+        for points in (folder / "run" / "snapshots").glob("points_*.hdf"):
+            points.unlink()
+        thin(Run(folder / "run"), folder / "thinned", 40, STARTS[2], Run(folder / "run").snapshots[-2:])
+        small = Run(folder / "thinned")
+        before, last = small.snapshots
+        self.assertEqual(last_of("rocks", history_of(small)), ("rocks", small, last))
+        with h5py.File(small.path / "snapshots" / f"bodies_{last:04}.h5", "a") as file:
+            del file["displacement"]
+        since = small.bodies(before).time - STARTS[2]
+        self.assertEqual(last_of("rocks", history_of(small)), (f"rocks, at {since:.1f} s", small, before))
+        (small.path / "snapshots" / f"bodies_{before:04}.h5").unlink()
+        self.assertEqual(last_of("rocks", history_of(small))[2], last)
 
     def test_runs_are_packed_twice_without_a_loss(self):
         folder = self.runs.parent / "packed"
