@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "rank_run.hpp"
@@ -111,33 +112,23 @@ TEST(LeftOutOnRanks, SandOnSeveralAsksForWhatItShares)
 }
 
 /// Two balls, in no one's way, that drift slowly: lists of pairs expire, and who holds the balls does not change.
-const std::string drifting = test::steel_text + R"(
-[[body]]
-name     = "one"
-shape    = "ball"
-material = "steel"
-diameter = 0.1
-density  = 7800.0
-position = [1.0, 0.5, 0.5]
-velocity = [0.0, 0.02, 0.0]
-[[body]]
-name     = "other"
-shape    = "ball"
-material = "steel"
-diameter = 0.1
-density  = 7800.0
-position = [2.0, 0.5, 0.5]
-velocity = [0.0, 0.02, 0.0]
-[[phase]]
-name     = "drift"
-duration = 1.0
-)";
+std::string drifting()
+{
+    std::string text = test::steel_text;
+    for (const int x : {1, 2})
+    {
+        text += fmt::format("[[body]]\nname = \"ball_{0}\"\nshape = \"ball\"\nmaterial = \"steel\"\ndiameter = 0.1\n"
+                            "density = 7800.0\nposition = [{0}.0, 0.5, 0.5]\nvelocity = [0.0, 0.02, 0.0]\n",
+                            x);
+    }
+    return text + "[[phase]]\nname = \"drift\"\nduration = 1.0\n";
+}
 
 TEST(LeftOutOnRanks, ASearchThatChangesNoHolderExchangesNoBodies)
 {
     if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
     Counters                   counters;
-    test::RankRun<Cpu, double> run(Cpu{&counters}, drifting, test::Ranks::all,
+    test::RankRun<Cpu, double> run(Cpu{&counters}, drifting(), test::Ranks::all,
                                    [](const mpm::Index3& page) { return page.y & 1; });
     solver::DemSolver<Cpu>&    rigid = run.simulation().rigid();
     const double               dt    = 1e-3; // s

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "decomp/messages.hpp"
@@ -70,17 +71,20 @@ bool holds(const BodyHolding& body, std::int32_t rank)
 
 HoldingChanges exchange_changes(const Communicator& communicator, const BodyHoldings& decided, const BodyHoldings& held)
 {
-    const std::int32_t here = communicator.rank(), ranks = communicator.size();
-    RankLists          words(static_cast<std::size_t>(ranks));
-    HoldingChanges     found;
+    const std::int32_t        here = communicator.rank();
+    RankLists                 words(static_cast<std::size_t>(communicator.size()));
+    std::vector<std::int32_t> concerned;
+    HoldingChanges            found;
     found.leaving.resize(words.size());
     HoldingLookup before(held, here);
     for (const BodyHolding& body : decided)
     {
         const BodyHolding last = before.of(body.body);
-        for (std::int32_t rank = 0; rank < ranks; ++rank)
+        concerned.clear();
+        std::ranges::set_union(body.holders, last.holders, std::back_inserter(concerned));
+        for (const std::int32_t rank : concerned)
         {
-            if (rank == here || !(holds(body, rank) || holds(last, rank))) { continue; }
+            if (rank == here) { continue; }
             write_words(words[static_cast<std::size_t>(rank)], body);
             if (!holds(last, rank)) { found.leaving[static_cast<std::size_t>(rank)].push_back(body.body); }
         }

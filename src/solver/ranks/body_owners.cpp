@@ -140,7 +140,7 @@ void BodyOwners::restore(std::vector<std::int32_t> numbers, const std::vector<st
 
 contact::BorderReach BodyOwners::lasting_reach(const contact::BorderReach& last, const std::array<double, 2>& met) const
 {
-    // As far as a body may be from the pages of its owner.
+    // A body may be so far from all pages of its owner.
     const double slack = (owner_slack + decision_margin) * lattice_.spacing;
     return {lasting(last.met_by_large, met[0] + slack, reach_step * lattice_.spacing),
             lasting(last.met_by_small, met[1] + slack, reach_step * lattice_.spacing), last.sand};
