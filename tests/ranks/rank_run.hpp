@@ -52,6 +52,12 @@ public:
     /// Transport of a run on all ranks.
     const decomp::Transport<Exec>& transport() const { return decomposition_->transport; }
 
+    /// Owners of the pages of a run on all ranks.
+    const decomp::PageMap<Exec>& owners() const { return decomposition_->owners; }
+
+    /// Where the scene's bodies and sand are.
+    const world::World& scene_world() const { return world_; }
+
     /// Fields of this rank's points.
     io::PointFields points() { return simulation_->point_fields(); }
 

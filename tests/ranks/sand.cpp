@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "decomp/combine.hpp"
+#include "kernels/mpm/pages/strays.hpp"
 #include "rank_run.hpp"
 
 // Sand on several ranks compared with the same sand on one. Ranks add shared contributions in another order than one
@@ -73,6 +75,28 @@ walls   = { x = "slip", y = "slip", bottom = "slip", top = "slip" }
                     "3.0e5", "[[0.02, 0.04, 0.04], [0.14, 0.12, 0.12]]", "100.0"});
 }
 
+/// A small ball in the last corner of the flight's domain: sand may touch it, and so points stay near their pages.
+const std::string ball_text = R"(
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e9
+poisson = 0.3
+[[shape]]
+name      = "ball"
+generate  = { kind = "sphere", nodes = 42 }
+sdf_cells = 16
+[[body]]
+name     = "ball"
+shape    = "ball"
+material = "steel"
+diameter = 0.02
+density  = 7800.0
+position = [1.18, 0.14, 0.14]
+lock     = ["x", "y", "z", "roll", "pitch", "yaw"]
+)";
+
 /// Keeps the owners that a test assigns.
 const std::string owners_stay = "[balance]\nthreshold = 1e6\n";
 
@@ -114,6 +138,32 @@ protected:
         EXPECT_NEAR(energy.total, expected.total, 1e-10 * std::abs(expected.total));
         expect_all_points(own, reference);
         expect_balance(all, alone);
+    }
+
+    /// Spacings: how far this rank's points are outside the pages that it owns, at most.
+    static double farthest_stray(Run& run)
+    {
+        const mpm::PageLattice lattice = solver::page_lattice_of(run.scene_world());
+        const double           edge    = mpm::page_edge * lattice.spacing;
+        const io::PointFields  points  = run.points();
+        double                 farthest = 0;
+        for (std::size_t i = 0; i < points.id.size(); ++i)
+        {
+            const Vec3<double> at(points.position.data() + 3 * i);
+            const mpm::Index3  page    = mpm::page_at(lattice, at);
+            double             nearest = edge;
+            for (int direction = 0; direction < mpm::directions; ++direction)
+            {
+                const mpm::Index3 other = mpm::page_towards(page, direction);
+                if (run.owners().owner(mpm::page_key(other)) != test::world().rank()) { continue; }
+                const Vec3<double> low = edge * Vec3<double>(other.x, other.y, other.z) +
+                                         Vec3<double>::Constant(lattice.stencil_shift * lattice.spacing);
+                const Vec3<double> inside = at.cwiseMax(low).cwiseMin(low + Vec3<double>::Constant(edge));
+                nearest                   = std::min(nearest, (at - inside).norm());
+            }
+            farthest = std::max(farthest, nearest);
+        }
+        return farthest / lattice.spacing;
     }
 
     /// Checks momentum in kg m/s, of some 10 N over 0.1 s. One rank accounts for the impulse of the walls.
@@ -207,6 +257,33 @@ TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
     this->expect_agreement(all, alone, rounding);
     EXPECT_GT(full, 0);
     if (test::world().size() > 1) { EXPECT_GT(empty, 0); }
+}
+
+/// With a body that they may touch points are sorted before they are two spacings outside the pages of their rank.
+TYPED_TEST(RankSand, PointsStayNearTheirPagesWhereThereAreBodies)
+{
+    const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
+    typename TestFixture::Run with_ball(this->exec(), flight_text() + ball_text + owners_stay, test::Ranks::all, slabs);
+    typename TestFixture::Run alone(this->exec(), flight_text() + owners_stay, test::Ranks::all, slabs);
+    double                    strays[] = {0, 0};
+    for (int step = 0; step < 300; ++step)
+    {
+        with_ball.step(1);
+        alone.step(1);
+        strays[0] = std::max(strays[0], this->farthest_stray(with_ball));
+        strays[1] = std::max(strays[1], this->farthest_stray(alone));
+    }
+    decomp::combine(test::world(), strays, 0, 2);
+    const auto [near, far] = strays;
+    std::cout << fmt::format("[ ranks    ] points were up to {:.2f} spacings outside the pages of their rank; without a "
+                             "body {:.2f}\n",
+                             near, far);
+    EXPECT_LT(near, mpm::stray_reach);
+    if (test::world().size() > 1)
+    {
+        EXPECT_GT(near, 0);
+        EXPECT_GT(far, mpm::stray_reach) << "the limit never mattered";
+    }
 }
 
 TYPED_TEST(RankSand, ARankMayHaveNothing)

@@ -9,22 +9,26 @@
 
 #include "backend/instantiate.hpp"
 #include "base/errors.hpp"
+#include "kernels/mpm/pages/strays.hpp"
 #include "solver/bodies/bounding_radii.hpp"
 #include "solver/state_file.hpp"
+#include "world/cover.hpp"
 
 namespace tread::solver
 {
 namespace
 {
 
-/// Spacings: largest distance from its rank's pages at which sand can touch a body. Points may be up to a page outside
-/// before they migrate, and have a radius.
-constexpr double sand_reach = mpm::page_edge + 2;
-
 constexpr double freedoms = dem::all_flags; ///< all bits of BodiesView::locked
 constexpr double furthest = 1e6;            ///< m, largest accepted distance of a body from the domain's corner
 constexpr double fastest  = 1e6;            ///< m/s and rad/s: steps with faster bodies would not end
 constexpr double shortest = 1e-10;          ///< s, smallest accepted sqrt(m / K) of a body with contacts of stiffness K
+
+/// m, largest distance of a body from the pages of a rank whose sand can touch it.
+double sand_reach(const scene::Scene& scene, const world::World& world)
+{
+    return mpm::stray_reach * scene.grid.spacing + world::make_point_reach(scene, world.sand).farthest(world.sand);
+}
 
 void require_distinct_keys(const world::World& world)
 {
@@ -179,7 +183,7 @@ BodyState<Exec>::BodyState(const Exec& backend, const scene::Scene& of_scene, co
     if (!world.joints.empty()) { pairs.jointed.assign(jointed_pairs(world.joints)); }
     if (decomposition != nullptr)
     {
-        ranks.emplace(*decomposition, world, plan.coupling ? sand_reach * scene.grid.spacing : 0);
+        ranks.emplace(*decomposition, world, plan.coupling ? sand_reach(scene, world) : 0);
     }
     write_rows(*this);
 }

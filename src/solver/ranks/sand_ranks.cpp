@@ -1,13 +1,15 @@
 #include "solver/ranks/sand_ranks.hpp"
 
 #include "backend/instantiate.hpp"
+#include "kernels/mpm/pages/strays.hpp"
 
 namespace tread::solver
 {
 
 template<class Exec, class Real>
-SandRanks<Exec, Real>::SandRanks(decomp::Decomposition<Exec>& decomposition)
+SandRanks<Exec, Real>::SandRanks(decomp::Decomposition<Exec>& decomposition, Strays strays)
     : decomposition_(decomposition)
+    , strays_(strays)
     , migration_(decomposition)
     , halo_(decomposition)
 {
@@ -20,8 +22,23 @@ std::int64_t SandRanks<Exec, Real>::order(mpm::Points<Exec, Real>& points, mpm::
 {
     moved_                  = migration_.run(points, geometry, scratch);
     const std::int64_t left = mpm::order_points(decomposition_.transport.exec(), points, pages, geometry, scratch);
+    mark_far_cells(pages);
     halo_.plan(pages, walls);
     return left;
+}
+
+template<class Exec, class Real>
+void SandRanks<Exec, Real>::resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls)
+{
+    mark_far_cells(pages);
+    halo_.resume(pages, walls);
+}
+
+template<class Exec, class Real>
+void SandRanks<Exec, Real>::mark_far_cells(mpm::Pages<Exec>& pages)
+{
+    if (strays_ == Strays::anywhere) { return; }
+    mpm::mark_far_cells(decomposition_.transport.exec(), pages, decomposition_.owners.view(), decomposition_.rank());
 }
 
 #define TREAD_INSTANTIATE(Exec, Real) template class SandRanks<Exec, Real>

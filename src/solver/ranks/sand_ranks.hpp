@@ -8,12 +8,19 @@ namespace tread::solver
 
 class StateFile;
 
+/// How far points may be outside the pages of their rank before they are sorted.
+enum class Strays
+{
+    anywhere,  ///< on the pages that the rank lists
+    near_pages ///< mpm::stray_reach, so that few ranks hold a body
+};
+
 /// What sand needs on several ranks only: migration of points, and exchange of shared nodes. Collective.
 template<class Exec, class Real>
 class SandRanks
 {
 public:
-    explicit SandRanks(decomp::Decomposition<Exec>& decomposition);
+    SandRanks(decomp::Decomposition<Exec>& decomposition, Strays strays);
 
     /// Migrates all points to the owners of their pages, sorts them there (mpm::order_points), and plans the exchange
     /// of shared nodes. Returns the number of this rank's points that have left the domain.
@@ -34,14 +41,17 @@ public:
     std::int64_t                         moved() const { return moved_; }
     const decomp::Migration<Exec, Real>& migration() const { return migration_; }
 
-    /// Restores the halo plan for loaded pages, whose owners are known.
-    void resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls) { halo_.resume(pages, walls); }
+    /// Restores far cells and the halo plan for loaded pages, whose owners are known.
+    void resume(mpm::Pages<Exec>& pages, const mpm::GridWalls& walls);
 
     decomp::GridHalo<Exec, Real>& halo() { return halo_; }
     const Communicator&           communicator() const { return decomposition_.communicator; }
 
 private:
+    void mark_far_cells(mpm::Pages<Exec>& pages);
+
     decomp::Decomposition<Exec>&  decomposition_;
+    Strays                        strays_;
     decomp::Migration<Exec, Real> migration_;
     decomp::GridHalo<Exec, Real>  halo_;
     std::int64_t                  moved_ = 0;

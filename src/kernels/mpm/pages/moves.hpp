@@ -12,7 +12,7 @@ enum class CellChange : std::int32_t
 {
     none,      ///< same cell
     moved,     ///< another cell on a listed page
-    rim,       ///< a cell next to a page that is not listed, or one of another level: reorder the points soon
+    rim,       ///< a far cell, or one next to a page that is not listed or of another level: reorder the points soon
     lost,      ///< no listed page: the points must be reordered now
     not_finite ///< position, velocity or stress is not finite
 };
@@ -69,9 +69,10 @@ TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, 
     const int          direction = own_page + x + 3 * y + 9 * z;
     const std::int32_t reached   = pages.neighbour[page * directions + direction];
     if (reached < 0) { return stay; }
-    const bool soon =
-        pages.replaced.contains(now) || !pages.own.contains(now) || at_rim(pages, reached, place_in_page(now));
-    return {direction, place_in_page(now), soon ? CellChange::rim : CellChange::moved};
+    const int  place  = place_in_page(now);
+    const bool is_far = pages.far_cells != nullptr && (pages.far_cells[reached] >> place & 1) != 0;
+    const bool soon = is_far || pages.replaced.contains(now) || !pages.own.contains(now) || at_rim(pages, reached, place);
+    return {direction, place, soon ? CellChange::rim : CellChange::moved};
 }
 
 TREAD_HD std::uint16_t packed(const Move& move)

@@ -44,6 +44,7 @@ struct PagesView : Lattice
     const std::uint64_t* node_page_key;    ///< [node_pages], ascending
     const std::int32_t*  node_page_of;     ///< [8 * point_pages], node page at + (o & 1, o >> 1 & 1, o >> 2)
     const std::int32_t*  point_page_of;    ///< [8 * node_pages], point page at - (o & 1, o >> 1 & 1, o >> 2), or -1
+    const std::uint64_t* far_cells;        ///< [point_pages], a bit for each cell; null: none is far (strays.hpp)
 };
 
 /// Memory of PagesView.
@@ -60,6 +61,7 @@ struct Pages
         , node_page_key(exec, "node page keys")
         , node_page_of(exec, "node pages of point pages")
         , point_page_of(exec, "point pages of node pages")
+        , far_cells(exec, "far cells of point pages")
     {
     }
 
@@ -80,12 +82,13 @@ struct Pages
                 neighbour.data(),
                 node_page_key.data(),
                 node_page_of.data(),
-                point_page_of.data()};
+                point_page_of.data(),
+                far_cells.size() > 0 ? far_cells.data() : nullptr};
     }
 
     PagesView view(double spacing, double stencil_shift) const { return view(make_lattice(spacing, stencil_shift)); }
 
-    /// Calls f(name, array) for every array.
+    /// Calls f(name, array) for every array but the far cells, which follow from keys and owners.
     template<class F>
     void for_each_field(F f)
     {
@@ -109,6 +112,7 @@ struct Pages
     Array<Exec, std::uint64_t> node_page_key;
     Array<Exec, std::int32_t>  node_page_of;
     Array<Exec, std::int32_t>  point_page_of;
+    Array<Exec, std::uint64_t> far_cells;
 };
 
 } // namespace tread::mpm
