@@ -21,15 +21,19 @@ const Vec3<double> size(0.4, 0.4, 0.6);
 
 /// Sums of as many terms in another order, in double precision, and 200 steps of a bed without collisions: rounding of
 /// 1e-16 grows by at most some 1e5.
-constexpr double bound = 1e-9;
+constexpr double by_rounding = 1e-9;
+
+/// 200 steps of slumping sand and rocks that collide. On one rank alone, with its points sorted every, every third or
+/// every seventh step, after 140 to 190 steps velocities differed by up to 1.6e-6 m/s, and dt by up to 1e-7 of it.
+constexpr double by_order = 1e-5;
 
 template<class Exec>
-void expect_as_alone(test::SideBySide<Exec>& run, int steps)
+void expect_as_alone(test::SideBySide<Exec>& run, int steps, double bound = by_rounding)
 {
     double force = 0, forces = 0;
     for (int step = 0; step < steps; ++step)
     {
-        run.advance();
+        run.advance(bound);
         if (::testing::Test::HasFatalFailure()) { return; }
         const auto one = run.alone.simulation().named_bodies(), all = run.together.simulation().named_bodies();
         for (std::size_t b = 0; b < one.size(); ++b)
@@ -161,10 +165,10 @@ TYPED_TEST(CoupledRanks, AWheelCeasesToTouchSandAndRocks)
         test::difference(run.alone.simulation().body_fields().position, run.bodies_together().position, 0.1);
     std::printf("friction %.12g and %.12g J, coupling error %.3g and %.3g J, places differ by %.3g\n", of_one.friction,
                 of_all.friction, of_one.coupling, of_all.coupling, places);
-    EXPECT_LT(places, bound);
-    EXPECT_NEAR(of_one.friction, of_all.friction, bound * of_one.friction);
-    EXPECT_NEAR(of_one.coupling, of_all.coupling, bound * of_one.friction);
-    EXPECT_NEAR(of_one.total, of_all.total, bound * of_one.friction);
+    EXPECT_LT(places, by_rounding);
+    EXPECT_NEAR(of_one.friction, of_all.friction, by_rounding * of_one.friction);
+    EXPECT_NEAR(of_one.coupling, of_all.coupling, by_rounding * of_one.friction);
+    EXPECT_NEAR(of_one.total, of_all.total, by_rounding * of_one.friction);
 }
 
 /// Sand with rocks slumps from one half of the box into the other, under a wheel.
@@ -202,7 +206,7 @@ TYPED_TEST(CoupledRanks, RocksAreCarriedByTheSand)
                         {"domain.gravity=[7.0, 0.0, -7.0]", "terrain[0].region.box=[[0.0, 0.0, 0.0], [0.2, 0.4, 0.2]]",
                          "rocks[0].region.box=[[0.0, 0.0, 0.02], [0.2, 0.4, 0.2]]", "phase[0].duration=1.0"});
     test::SideBySide<TypeParam> run(this->exec(), scene, size, test::slabs(size[0], this->ranks()));
-    expect_as_alone(run, 200);
+    expect_as_alone(run, 200, by_order);
 }
 
 } // namespace

@@ -75,8 +75,10 @@ walls   = { x = "slip", y = "slip", bottom = "slip", top = "slip" }
                     "3.0e5", "[[0.02, 0.04, 0.04], [0.14, 0.12, 0.12]]", "100.0"});
 }
 
-/// A small ball in the last corner of the flight's domain: sand may touch it, and so points stay near their pages.
-const std::string ball_text = R"(
+/// A small ball that is held at a place: sand may touch it, and so points stay near their pages.
+std::string ball_text(const Vec3<double>& position)
+{
+    return fmt::format(R"(
 [[material]]
 name    = "steel"
 model   = "elastic"
@@ -85,17 +87,19 @@ young   = 1.0e9
 poisson = 0.3
 [[shape]]
 name      = "ball"
-generate  = { kind = "sphere", nodes = 42 }
+generate  = {{ kind = "sphere", nodes = 42 }}
 sdf_cells = 16
 [[body]]
 name     = "ball"
 shape    = "ball"
 material = "steel"
-diameter = 0.02
+diameter = 0.008
 density  = 7800.0
-position = [1.18, 0.14, 0.14]
+position = [{}, {}, {}]
 lock     = ["x", "y", "z", "roll", "pitch", "yaw"]
-)";
+)",
+                       position[0], position[1], position[2]);
+}
 
 /// Keeps the owners that a test assigns.
 const std::string owners_stay = "[balance]\nthreshold = 1e6\n";
@@ -263,7 +267,8 @@ TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
 TYPED_TEST(RankSand, PointsStayNearTheirPagesWhereThereAreBodies)
 {
     const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
-    typename TestFixture::Run with_ball(this->exec(), flight_text() + ball_text + owners_stay, test::Ranks::all, slabs);
+    const std::string         far_ball = ball_text({1.18, 0.14, 0.14});
+    typename TestFixture::Run with_ball(this->exec(), flight_text() + far_ball + owners_stay, test::Ranks::all, slabs);
     typename TestFixture::Run alone(this->exec(), flight_text() + owners_stay, test::Ranks::all, slabs);
     double                    strays[] = {0, 0};
     for (int step = 0; step < 300; ++step)
@@ -284,6 +289,28 @@ TYPED_TEST(RankSand, PointsStayNearTheirPagesWhereThereAreBodies)
         EXPECT_GT(near, 0);
         EXPECT_GT(far, mpm::stray_reach) << "the limit never mattered";
     }
+}
+
+/// A ball 0.9 spacings beyond the border between two ranks, which only sand of the other rank that has strayed meets.
+TYPED_TEST(RankSand, FlyingPointsMeetABallBesideTheBorder)
+{
+    const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
+    const std::string         text  = flight_text() + ball_text({0.17 + 0.9 * 0.02 + 0.004, 0.08, 0.08});
+    typename TestFixture::Run all(this->exec(), text + owners_stay, test::Ranks::all, slabs);
+    typename TestFixture::Run alone(this->exec(), text + owners_stay, test::Ranks::this_one);
+    double                    force = 0, difference = 0;
+    for (int step = 0; step < 150; ++step)
+    {
+        all.step(1);
+        alone.step(1);
+        const Vec3<double> expected = alone.simulation().named_bodies()[0].force;
+        force                       = std::max(force, expected.norm());
+        difference = std::max(difference, (all.simulation().named_bodies()[0].force - expected).norm());
+    }
+    std::cout << fmt::format("[ ranks    ] the ball is pushed with up to {:.4g} N, and {:.2g} N differently on one rank\n",
+                             force, difference);
+    EXPECT_GT(force, 0);
+    EXPECT_LT(difference, 1e-9 * force) << "sums in another order; a quarter is missing where no rank lets its points touch the ball";
 }
 
 TYPED_TEST(RankSand, ARankMayHaveNothing)
