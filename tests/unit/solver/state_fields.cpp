@@ -35,13 +35,14 @@ TEST(ForEachField, VisitsEveryArrayOfThePoints)
     EXPECT_EQ(components, fields) << "a field has another width than it is visited with";
 }
 
-TEST(ForEachField, VisitsEveryArrayOfThePages)
+/// Far cells follow from keys and owners.
+TEST(ForEachField, VisitsEveryArrayOfThePagesButTheFarCells)
 {
     Counters        counters;
     mpm::Pages<Cpu> pages(Cpu{&counters});
     std::size_t     fields = 0;
     pages.for_each_field([&](const char*, auto&) { ++fields; });
-    EXPECT_EQ(fields, arrays_in<decltype(pages)>(0));
+    EXPECT_EQ(fields + 1, arrays_in<decltype(pages)>(0));
 }
 
 /// Roles and numbers differ between ranks, and who is asleep stands with the rest of the sleep
