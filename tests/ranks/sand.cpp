@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "decomp/combine.hpp"
-#include "kernels/mpm/pages/strays.hpp"
+#include "kernels/mpm/pages/far_cells.hpp"
 #include "rank_run.hpp"
 
 // Sand on several ranks compared with the same sand on one. Ranks add shared contributions in another order than one
@@ -145,11 +145,11 @@ protected:
     }
 
     /// Spacings: how far this rank's points are outside the pages that it owns, at most.
-    static double farthest_stray(Run& run)
+    static double farthest_outside_in(Run& run)
     {
-        const mpm::PageLattice lattice = solver::page_lattice_of(run.scene_world());
-        const double           edge    = mpm::page_edge * lattice.spacing;
-        const io::PointFields  points  = run.points();
+        const mpm::PageLattice lattice  = solver::page_lattice_of(run.scene_world());
+        const double           edge     = mpm::page_edge * lattice.spacing;
+        const io::PointFields  points   = run.points();
         double                 farthest = 0;
         for (std::size_t i = 0; i < points.id.size(); ++i)
         {
@@ -266,32 +266,34 @@ TYPED_TEST(RankSand, RanksBecomeEmptyAndFillAgain)
 /// With a body that they may touch points are sorted before they are two spacings outside the pages of their rank.
 TYPED_TEST(RankSand, PointsStayNearTheirPagesWhereThereAreBodies)
 {
-    const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
+    const auto                slabs    = [](mpm::Index3 page) { return (page.x + 2) / 2; };
     const std::string         far_ball = ball_text({1.18, 0.14, 0.14});
     typename TestFixture::Run with_ball(this->exec(), flight_text() + far_ball + owners_stay, test::Ranks::all, slabs);
     typename TestFixture::Run alone(this->exec(), flight_text() + owners_stay, test::Ranks::all, slabs);
-    double                    strays[] = {0, 0};
+    double                    outside[] = {0, 0};
     for (int step = 0; step < 300; ++step)
     {
         with_ball.step(1);
         alone.step(1);
-        strays[0] = std::max(strays[0], this->farthest_stray(with_ball));
-        strays[1] = std::max(strays[1], this->farthest_stray(alone));
+        outside[0] = std::max(outside[0], this->farthest_outside_in(with_ball));
+        outside[1] = std::max(outside[1], this->farthest_outside_in(alone));
     }
-    decomp::combine(test::world(), strays, 0, 2);
-    const auto [near, far] = strays;
-    std::cout << fmt::format("[ ranks    ] points were up to {:.2f} spacings outside the pages of their rank; without a "
-                             "body {:.2f}\n",
-                             near, far);
-    EXPECT_LT(near, mpm::stray_reach);
+    decomp::combine(test::world(), outside, 0, 2);
+    const auto [near, far] = outside;
+    std::cout << fmt::format(
+        "[ ranks    ] points were up to {:.2f} spacings outside the pages of their rank; without a "
+        "body {:.2f}\n",
+        near, far);
+    EXPECT_LT(near, mpm::farthest_outside);
     if (test::world().size() > 1)
     {
         EXPECT_GT(near, 0);
-        EXPECT_GT(far, mpm::stray_reach) << "the limit never mattered";
+        EXPECT_GT(far, mpm::farthest_outside) << "the limit never mattered";
     }
 }
 
-/// A ball 0.9 spacings beyond the border between two ranks, which only sand of the other rank that has strayed meets.
+/// A ball 0.9 spacings beyond the border between two ranks, which only sand of the other rank that has left its pages
+/// meets.
 TYPED_TEST(RankSand, FlyingPointsMeetABallBesideTheBorder)
 {
     const auto                slabs = [](mpm::Index3 page) { return (page.x + 2) / 2; };
@@ -307,10 +309,12 @@ TYPED_TEST(RankSand, FlyingPointsMeetABallBesideTheBorder)
         force                       = std::max(force, expected.norm());
         difference = std::max(difference, (all.simulation().named_bodies()[0].force - expected).norm());
     }
-    std::cout << fmt::format("[ ranks    ] the ball is pushed with up to {:.4g} N, and {:.2g} N differently on one rank\n",
-                             force, difference);
+    std::cout << fmt::format(
+        "[ ranks    ] the ball is pushed with up to {:.4g} N, and {:.2g} N differently on one rank\n", force,
+        difference);
     EXPECT_GT(force, 0);
-    EXPECT_LT(difference, 1e-9 * force) << "sums in another order; a quarter is missing where no rank lets its points touch the ball";
+    EXPECT_LT(difference, 1e-9 * force)
+        << "sums in another order; a quarter is missing where no rank lets its points touch the ball";
 }
 
 TYPED_TEST(RankSand, ARankMayHaveNothing)

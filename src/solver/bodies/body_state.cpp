@@ -9,7 +9,7 @@
 
 #include "backend/instantiate.hpp"
 #include "base/errors.hpp"
-#include "kernels/mpm/pages/strays.hpp"
+#include "kernels/mpm/pages/far_cells.hpp"
 #include "solver/bodies/bounding_radii.hpp"
 #include "solver/state_file.hpp"
 #include "world/cover.hpp"
@@ -27,7 +27,7 @@ constexpr double shortest = 1e-10;          ///< s, smallest accepted sqrt(m / K
 /// m, largest distance of a body from the pages of a rank whose sand can touch it.
 double sand_reach(const scene::Scene& scene, const world::World& world)
 {
-    return mpm::stray_reach * scene.grid.spacing + world::make_point_reach(scene, world.sand).farthest(world.sand);
+    return mpm::farthest_outside * scene.grid.spacing + world::make_point_reach(scene, world.sand).farthest(world.sand);
 }
 
 void require_distinct_keys(const world::World& world)

@@ -1,15 +1,15 @@
 #include "solver/ranks/sand_ranks.hpp"
 
 #include "backend/instantiate.hpp"
-#include "kernels/mpm/pages/strays.hpp"
+#include "kernels/mpm/pages/far_cells.hpp"
 
 namespace tread::solver
 {
 
 template<class Exec, class Real>
-SandRanks<Exec, Real>::SandRanks(decomp::Decomposition<Exec>& decomposition, Strays strays)
+SandRanks<Exec, Real>::SandRanks(decomp::Decomposition<Exec>& decomposition, Outside outside)
     : decomposition_(decomposition)
-    , strays_(strays)
+    , outside_(outside)
     , migration_(decomposition)
     , halo_(decomposition)
 {
@@ -37,7 +37,7 @@ void SandRanks<Exec, Real>::resume(mpm::Pages<Exec>& pages, const mpm::GridWalls
 template<class Exec, class Real>
 void SandRanks<Exec, Real>::mark_far_cells(mpm::Pages<Exec>& pages)
 {
-    if (strays_ == Strays::anywhere) { return; }
+    if (outside_ == Outside::anywhere) { return; }
     mpm::mark_far_cells(decomposition_.transport.exec(), pages, decomposition_.owners.view(), decomposition_.rank());
 }
 

@@ -9,10 +9,10 @@ namespace tread::solver
 class StateFile;
 
 /// How far points may be outside the pages of their rank before they are sorted.
-enum class Strays
+enum class Outside
 {
     anywhere,  ///< on the pages that the rank lists
-    near_pages ///< mpm::stray_reach, so that few ranks hold a body
+    near_pages ///< mpm::farthest_outside, so that few ranks hold a body
 };
 
 /// What sand needs on several ranks only: migration of points, and exchange of shared nodes. Collective.
@@ -20,7 +20,7 @@ template<class Exec, class Real>
 class SandRanks
 {
 public:
-    SandRanks(decomp::Decomposition<Exec>& decomposition, Strays strays);
+    SandRanks(decomp::Decomposition<Exec>& decomposition, Outside outside);
 
     /// Migrates all points to the owners of their pages, sorts them there (mpm::order_points), and plans the exchange
     /// of shared nodes. Returns the number of this rank's points that have left the domain.
@@ -51,7 +51,7 @@ private:
     void mark_far_cells(mpm::Pages<Exec>& pages);
 
     decomp::Decomposition<Exec>&  decomposition_;
-    Strays                        strays_;
+    Outside                       outside_;
     decomp::Migration<Exec, Real> migration_;
     decomp::GridHalo<Exec, Real>  halo_;
     std::int64_t                  moved_ = 0;

@@ -17,9 +17,9 @@ namespace
 constexpr double load_asleep = 1;
 
 /// Near its pages where there are bodies that sand may touch.
-Strays strays_of(const world::World& world)
+Outside outside_of(const world::World& world)
 {
-    return world.bodies.size() > 0 ? Strays::near_pages : Strays::anywhere;
+    return world.bodies.size() > 0 ? Outside::near_pages : Outside::anywhere;
 }
 
 } // namespace
@@ -34,7 +34,7 @@ MpmSolver<Exec, Real>::MpmSolver(const Exec& exec, const scene::Scene& scene, co
     , laws_(exec, scene, world)
     , tallies_(exec)
 {
-    if (decomposition != nullptr) { ranks_.emplace(*decomposition, strays_of(world)); }
+    if (decomposition != nullptr) { ranks_.emplace(*decomposition, outside_of(world)); }
     if (scene.sleep.distance) { sleep_.emplace(exec, scene, world, fields, communicator()); }
     if (decomposition == nullptr) { upload_points(points_, world::make_points(scene, world, world.sand.rows), fields); }
     else { upload_points(points_, own_points(scene, world, *decomposition), fields); }

@@ -71,7 +71,8 @@ TREAD_HD Move move_to(const PagesView& pages, std::int64_t page, Index3 before, 
     if (reached < 0) { return stay; }
     const int  place  = place_in_page(now);
     const bool is_far = pages.far_cells != nullptr && (pages.far_cells[reached] >> place & 1) != 0;
-    const bool soon = is_far || pages.replaced.contains(now) || !pages.own.contains(now) || at_rim(pages, reached, place);
+    const bool soon =
+        is_far || pages.replaced.contains(now) || !pages.own.contains(now) || at_rim(pages, reached, place);
     return {direction, place, soon ? CellChange::rim : CellChange::moved};
 }
 

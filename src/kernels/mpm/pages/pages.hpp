@@ -44,7 +44,7 @@ struct PagesView : Lattice
     const std::uint64_t* node_page_key;    ///< [node_pages], ascending
     const std::int32_t*  node_page_of;     ///< [8 * point_pages], node page at + (o & 1, o >> 1 & 1, o >> 2)
     const std::int32_t*  point_page_of;    ///< [8 * node_pages], point page at - (o & 1, o >> 1 & 1, o >> 2), or -1
-    const std::uint64_t* far_cells;        ///< [point_pages], a bit for each cell; null: none is far (strays.hpp)
+    const std::uint64_t* far_cells;        ///< [point_pages], a bit for each cell; null: none is far (far_cells.hpp)
 };
 
 /// Memory of PagesView.

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "kernels/mpm/pages/strays.hpp"
+#include "kernels/mpm/pages/far_cells.hpp"
 
-// Far cells of pages, for both backends; strays.cpp and strays.cu provide for_each and instantiate.
+// Far cells of pages, for both backends; far_cells.cpp and far_cells.cu provide for_each and instantiate.
 namespace tread::mpm
 {
 

@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "backend.hpp"
+#include "kernels/mpm/pages/far_cells.hpp"
 #include "kernels/mpm/pages/moves.hpp"
-#include "kernels/mpm/pages/strays.hpp"
 
 // Which cells of other ranks' pages are far from a rank's own ones, and what points that enter them ask for.
 namespace tread::mpm
 {
-namespace strays_test
+namespace far_cells_test
 {
 
 constexpr double       spacing = 0.1;
@@ -68,8 +68,8 @@ TYPED_TEST(FarCells, AllButTheLayerAtAFaceOfAnOwnPage)
     {
         const Index3        page  = page_towards(home, direction);
         const std::uint64_t cells = far[static_cast<std::size_t>(row_of(keys, page))];
-        const int  axes = (page.x != home.x ? 1 : 0) + (page.y != home.y ? 1 : 0) + (page.z != home.z ? 1 : 0);
-        const int  expected = axes == 0 ? 0 : axes == 1 ? page_cells - page_edge * page_edge : page_cells;
+        const int           axes = (page.x != home.x ? 1 : 0) + (page.y != home.y ? 1 : 0) + (page.z != home.z ? 1 : 0);
+        const int           expected = axes == 0 ? 0 : axes == 1 ? page_cells - page_edge * page_edge : page_cells;
         EXPECT_EQ(std::popcount(cells), expected) << "direction " << direction;
         if (axes != 1) { continue; }
         for (int place = 0; place < page_cells; ++place)
@@ -82,19 +82,20 @@ TYPED_TEST(FarCells, AllButTheLayerAtAFaceOfAnOwnPage)
     }
 }
 
-class Strays : public test::BackendTest<Cpu>
+class FarCellsOnTheHost : public test::BackendTest<Cpu>
 {
 };
 
 /// A point goes from the last layer of its rank's page through the layers of the next one.
-TEST_F(Strays, APointThatEntersOneAsksForASort)
+TEST_F(FarCellsOnTheHost, APointThatEntersOneAsksForASort)
 {
-    Pages<Cpu>       pages = pages_around_home(this->exec());
-    const PagesView  view  = pages.view(spacing, 0.5);
-    const auto       keys  = pages.point_page_key.to_host();
-    const Index3     inner = node_at(home, place_in_page({3, 1, 1}));
-    const auto       to    = [&](std::int64_t page, Index3 from, int layers)
-    { return move_to(view, page, from, centre_of({inner.x + layers, inner.y, inner.z})).cell_change; };
+    Pages<Cpu>      pages = pages_around_home(this->exec());
+    const PagesView view  = pages.view(spacing, 0.5);
+    const auto      keys  = pages.point_page_key.to_host();
+    const Index3    inner = node_at(home, place_in_page({3, 1, 1}));
+    const auto      to    = [&](std::int64_t page, Index3 from, int layers) {
+        return move_to(view, page, from, centre_of({inner.x + layers, inner.y, inner.z})).cell_change;
+    };
     const Index3 next{inner.x + 1, inner.y, inner.z};
     EXPECT_EQ(to(row_of(keys, home), inner, 0), CellChange::none);
     EXPECT_EQ(to(row_of(keys, home), inner, 1), CellChange::moved) << "the layer beside the page";
@@ -109,5 +110,5 @@ TEST_F(Strays, APointThatEntersOneAsksForASort)
         << "on one rank nothing is far";
 }
 
-} // namespace strays_test
+} // namespace far_cells_test
 } // namespace tread::mpm

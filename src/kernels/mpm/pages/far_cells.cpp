@@ -1,6 +1,6 @@
 #include "backend/instantiate.hpp"
-#include "backend/launch.cuh"
-#include "kernels/mpm/pages/strays_impl.hpp"
+#include "backend/launch.hpp"
+#include "kernels/mpm/pages/far_cells_impl.hpp"
 
 namespace tread::mpm
 {
