@@ -39,21 +39,35 @@ public:
     bool at(std::uint64_t key) const { return marks_[place(index_of(key))] != 0; }
     void mark(const Index& page) { marks_[place(page)] = 1; }
 
-    /// Calls visit(page) for the pages of the box from `first` to `last`.
-    template<class Visit>
-    void for_each(Index first, Index last, Visit visit) const
+    /// Marks the pages of edge `edge` (m) that are nearer to a place (m) than `reach` (m).
+    void mark_ball(const Vec3<double>& centre, double reach, double edge)
     {
+        Index first, last;
         for (std::size_t c = 0; c < 3; ++c)
         {
-            first[c] = std::max(first[c], low_[c]);
-            last[c]  = std::min(last[c], low_[c] + size_[c] - 1);
-        }
-        Index page;
-        for (page[2] = first[2]; page[2] <= last[2]; ++page[2])
-        {
-            for (page[1] = first[1]; page[1] <= last[1]; ++page[1])
+            const double at = centre[static_cast<Eigen::Index>(c)];
+            first[c]        = std::max(static_cast<std::int32_t>(std::floor((at - reach) / edge)), low_[c]);
+            last[c] = std::min(static_cast<std::int32_t>(std::floor((at + reach) / edge)), low_[c] + size_[c] - 1);
+            squares_[c].clear();
+            for (std::int32_t page = first[c]; page <= last[c]; ++page)
             {
-                for (page[0] = first[0]; page[0] <= last[0]; ++page[0]) { visit(page); }
+                const double off = at - std::clamp(at, page * edge, (page + 1) * edge);
+                squares_[c].push_back(off * off);
+            }
+        }
+        const double within   = reach * reach;
+        const auto& [x, y, z] = squares_;
+        for (std::size_t k = 0; k < z.size(); ++k)
+        {
+            for (std::size_t j = 0; j < y.size(); ++j)
+            {
+                if (x.empty() || !(y[j] + z[k] < within)) { continue; }
+                std::uint8_t* row = marks_.data() + place({first[0], first[1] + static_cast<std::int32_t>(j),
+                                                           first[2] + static_cast<std::int32_t>(k)});
+                for (std::size_t i = 0; i < x.size(); ++i)
+                {
+                    row[i] = static_cast<std::uint8_t>(row[i] | (x[i] + y[j] + z[k] < within ? 1 : 0));
+                }
             }
         }
     }
@@ -101,9 +115,10 @@ private:
         }
     }
 
-    Index                     low_;
-    Index                     size_{};
-    std::vector<std::uint8_t> marks_;
+    Index                              low_;
+    Index                              size_{};
+    std::vector<std::uint8_t>          marks_;
+    std::array<std::vector<double>, 3> squares_; ///< m2, scratch of mark_ball(): offsets of pages along each axis
 };
 
 PageMarks around_all(const RestState& state)
@@ -128,29 +143,7 @@ PageMarks around_all(const RestState& state)
 /// Marks the pages that are nearer to a body than a distance of it (m).
 void mark_near(const std::vector<BodyReach>& bodies, double edge, double BodyReach::*distance, PageMarks& marks)
 {
-    for (const BodyReach& body : bodies)
-    {
-        const double reach = body.*distance;
-        Index        first, last;
-        for (std::size_t c = 0; c < 3; ++c)
-        {
-            const double centre = body.centre[static_cast<Eigen::Index>(c)];
-            first[c]            = static_cast<std::int32_t>(std::floor((centre - reach) / edge));
-            last[c]             = static_cast<std::int32_t>(std::floor((centre + reach) / edge));
-        }
-        marks.for_each(first, last,
-                       [&](const Index& page)
-                       {
-                           double squared = 0;
-                           for (std::size_t c = 0; c < 3; ++c)
-                           {
-                               const double centre = body.centre[static_cast<Eigen::Index>(c)];
-                               const double off    = centre - std::clamp(centre, page[c] * edge, (page[c] + 1) * edge);
-                               squared += off * off;
-                           }
-                           if (squared < reach * reach) { marks.mark(page); }
-                       });
-    }
+    for (const BodyReach& body : bodies) { marks.mark_ball(body.centre, body.*distance, edge); }
 }
 
 bool any_at(const PageMarks& marks, const std::vector<std::uint64_t>& pages)
@@ -162,17 +155,19 @@ bool any_at(const PageMarks& marks, const std::vector<std::uint64_t>& pages)
 
 std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& state)
 {
+    const auto rests = [&](const AwakePage& page) { return page.quiet >= rule.rest; };
+    if (state.asleep.empty() && std::none_of(state.awake.begin(), state.awake.end(), rests)) { return {}; }
     PageMarks wakes = around_all(state), stays = wakes, moved = wakes;
     for (const std::uint64_t key : state.pressed) { wakes.mark(index_of(key)); }
     wakes.widen(1);
     for (const AwakePage& page : state.awake)
     {
         if (page.speed > rule.speed) { moved.mark(index_of(page.key)); }
-        if (page.quiet < rule.rest) { stays.mark(index_of(page.key)); }
+        if (!rests(page)) { stays.mark(index_of(page.key)); }
     }
     moved.widen(moving_ring);
     stays.widen(moving_ring + 1);
-    mark_near(state.bodies, rule.page_edge, &BodyReach::wakes, wakes);
+    if (!state.asleep.empty()) { mark_near(state.bodies, rule.page_edge, &BodyReach::wakes, wakes); }
     PageMarks near = wakes;
     mark_near(state.bodies, rule.page_edge, &BodyReach::rests, near);
 
@@ -184,7 +179,7 @@ std::vector<std::uint64_t> choose_asleep(const RestRule& rule, const RestState& 
     }
     for (const AwakePage& page : state.awake)
     {
-        if (page.quiet >= rule.rest && !stays.at(page.key) && !near.at(page.key)) { tired.push_back(page.key); }
+        if (rests(page) && !stays.at(page.key) && !near.at(page.key)) { tired.push_back(page.key); }
     }
     const bool sorts = asleep.size() < state.asleep.size();
     if (sorts || static_cast<double>(tired.size()) >= worth_a_sort * static_cast<double>(state.awake.size()))

@@ -30,7 +30,7 @@ struct BodyReach
 {
     Vec3<double> centre;
     double       wakes; ///< sand that is nearer to the centre wakes
-    double       rests; ///< sand that is farther from it may fall asleep
+    double       rests; ///< sand that is farther from it may fall asleep; at least `wakes`
 };
 
 /// Input of choose_asleep. Keys ascend. A page that points have entered since it fell asleep is in both lists.
