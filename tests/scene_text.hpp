@@ -64,14 +64,18 @@ diameter = 0.06
 region   = { box = [[0.0, 0.0, 0.02], [0.4, 0.4, 0.2]] }
 )";
 
-/// The sand, and a roller of 4 kg above it that can only fall.
-inline const std::string roller_text = sand_text + R"(
+/// Steel that is soft enough for long steps.
+inline const std::string soft_steel_text = R"(
 [[material]]
 name    = "steel"
 model   = "elastic"
 density = 7800.0
 young   = 1.0e9
 poisson = 0.3
+)";
+
+/// The sand, and a roller of 4 kg above it that can only fall.
+inline const std::string roller_text = sand_text + soft_steel_text + R"(
 [[shape]]
 name      = "roller"
 generate  = { kind = "wheel", radius = 0.1, width = 0.15, wall_thickness = 0.04, grousers = 0, grouser_height = 0.0 }

@@ -78,13 +78,7 @@ walls   = { x = "slip", y = "slip", bottom = "slip", top = "slip" }
 /// A small ball that is held at a place: sand may touch it, and so points stay near their pages.
 std::string ball_text(const Vec3<double>& position)
 {
-    return fmt::format(R"(
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
+    return test::soft_steel_text + fmt::format(R"(
 [[shape]]
 name      = "ball"
 generate  = {{ kind = "sphere", nodes = 42 }}
@@ -98,7 +92,7 @@ density  = 7800.0
 position = [{}, {}, {}]
 lock     = ["x", "y", "z", "roll", "pitch", "yaw"]
 )",
-                       position[0], position[1], position[2]);
+                                               position[0], position[1], position[2]);
 }
 
 /// Keeps the owners that a test assigns.

@@ -57,11 +57,12 @@ public:
         }
         const double within   = reach * reach;
         const auto& [x, y, z] = squares_;
+        if (x.empty()) { return; }
         for (std::size_t k = 0; k < z.size(); ++k)
         {
             for (std::size_t j = 0; j < y.size(); ++j)
             {
-                if (x.empty() || !(y[j] + z[k] < within)) { continue; }
+                if (!(y[j] + z[k] < within)) { continue; }
                 std::uint8_t* row = marks_.data() + place({first[0], first[1] + static_cast<std::int32_t>(j),
                                                            first[2] + static_cast<std::int32_t>(k)});
                 for (std::size_t i = 0; i < x.size(); ++i)
