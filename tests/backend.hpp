@@ -9,9 +9,17 @@
 #include "backend/backends.hpp"
 
 // One test body for every backend: TYPED_TEST_SUITE(Name, tread::test::Backends, tread::test::BackendNames).
-// TREAD_TEST_BACKEND=cpu|cuda selects one of them; cuda is skipped if there is no device.
+// TREAD_TEST_BACKEND=cpu|cuda selects one of them; cuda is skipped if there is no device. TREAD_TEST_DEVICE is the
+// number of the device, 0 if not set; mpi_session.hpp gives the ranks of a machine one each.
 namespace tread::test
 {
+
+/// Device of this process, where there is one.
+inline int device_number()
+{
+    const char* wanted = std::getenv("TREAD_TEST_DEVICE");
+    return wanted == nullptr ? 0 : std::stoi(wanted) % device_count();
+}
 
 template<class Exec>
 class BackendTest;
@@ -40,7 +48,7 @@ protected:
         const char* wanted = std::getenv("TREAD_TEST_BACKEND");
         if (wanted != nullptr && std::string(wanted) != "cuda") { GTEST_SKIP() << "TREAD_TEST_BACKEND=" << wanted; }
         if (device_count() == 0) { GTEST_SKIP() << "no CUDA device"; }
-        device = std::make_unique<Device>(0, counters);
+        device = std::make_unique<Device>(device_number(), counters);
     }
 
     Gpu exec() { return device->gpu(); }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdlib>
 #include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +21,11 @@ namespace tread::test
 class MpiEnvironment : public ::testing::Environment
 {
 public:
-    void SetUp() override { session_ = std::make_unique<MpiSession>(); }
+    void SetUp() override
+    {
+        session_ = std::make_unique<MpiSession>();
+        setenv("TREAD_TEST_DEVICE", std::to_string(world().local_rank()).c_str(), 0);
+    }
     void TearDown() override { session_.reset(); }
 
     const Communicator& world() const { return session_->world(); }

@@ -52,7 +52,7 @@ TYPED_TEST(ListsOfRanks, AllEndWithTheLastSubstepThatTheListServes)
 {
     const scene::Scene               scene = test::load_text(balls());
     world::World                     world = world::build_world(scene);
-    decomp::Decomposition<TypeParam> decomposition(test::world(), this->exec(), {});
+    decomp::Decomposition<TypeParam> decomposition(test::world(), this->exec(), test::decomposition_options());
     solver::share_out(decomposition, world);
     solver::DemSolver<TypeParam> rigid(this->exec(), scene, world,
                                        solver::make_plan(scene, world, test::world().size()), &decomposition);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "backend.hpp"
+#include "decomposition_options.hpp"
 #include "mpi_session.hpp"
 #include "run/time_loop.hpp"
 #include "scene_text.hpp"
@@ -30,11 +31,11 @@ class RankRun
 {
 public:
     RankRun(const Exec& exec, const std::string& text, Ranks ranks, const OwnerOf& owner_of = {},
-            decomp::TransportChoice transport = decomp::TransportChoice::automatic)
+            const decomp::DecompositionOptions& options = decomposition_options())
         : scene_(load_text(text))
         , world_(world::build_world(scene_))
     {
-        if (ranks == Ranks::all) { decompose(exec, owner_of, transport); }
+        if (ranks == Ranks::all) { decompose(exec, owner_of, options); }
         simulation_ = std::make_unique<solver::Simulation<Exec, Real>>(
             exec, scene_, world_, solver::make_plan(scene_, world_, decomposition_ ? test::world().size() : 1),
             decomposition_.get());
@@ -65,12 +66,9 @@ public:
     solver::EnergyRow energy() { return simulation_->ledger().energy(simulation_->census()); }
 
 private:
-    void decompose(const Exec& exec, const OwnerOf& owner_of, decomp::TransportChoice transport)
+    void decompose(const Exec& exec, const OwnerOf& owner_of, const decomp::DecompositionOptions& options)
     {
-        decomp::DecompositionOptions options;
-        options.transport = transport;
-        options.checksums = decomp::Checksums::on;
-        decomposition_    = std::make_unique<decomp::Decomposition<Exec>>(test::world(), exec, options);
+        decomposition_ = std::make_unique<decomp::Decomposition<Exec>>(test::world(), exec, options);
         solver::share_out(*decomposition_, world_);
         if (owner_of) { assign(owner_of); }
     }

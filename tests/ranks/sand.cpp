@@ -227,7 +227,8 @@ TYPED_TEST(RankSand, IsTheSameEveryTime)
 TYPED_TEST(RankSand, IsTheSameByEveryTransport)
 {
     typename TestFixture::Run any(this->exec(), column_text(), test::Ranks::all);
-    typename TestFixture::Run host(this->exec(), column_text(), test::Ranks::all, {}, decomp::TransportChoice::host);
+    typename TestFixture::Run host(this->exec(), column_text(), test::Ranks::all, {},
+                                   {decomp::TransportChoice::host, decomp::Checksums::on});
     std::cout << fmt::format("[ ranks    ] '{}' against '{}'\n", any.transport().description(),
                              host.transport().description());
     any.step(50);

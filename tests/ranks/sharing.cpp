@@ -26,7 +26,7 @@ protected:
                   test::rock_domain(size, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
                   test::stone(1e7, 0.5, 0.5) + rocks + "\n[time]\ndt = 0.0002\n" + test::phase("fall", 0, 1)))
             , world(world::build_world(scene))
-            , decomposition(test::world(), exec, {})
+            , decomposition(test::world(), exec, test::decomposition_options())
             , rigid(exec, scene, world, solver::make_plan(scene, world, test::world().size()), owned(marks))
         {
             rigid.find_pairs(2e-4);

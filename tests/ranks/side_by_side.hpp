@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "decomp/messages.hpp"
+#include "decomposition_options.hpp"
 #include "mpi_session.hpp"
 #include "physics/harness.hpp"
 #include "solver/ranks/page_loads.hpp"
@@ -145,7 +146,7 @@ public:
     SideBySide(const Exec& exec, const scene::Scene& scene, const Vec3<double>& size, Owner owner,
                Owners owners = Owners::stay)
         : built_(world::build_world(scene))
-        , decomposition_(world(), exec, {decomp::TransportChoice::automatic, decomp::Checksums::on})
+        , decomposition_(world(), exec, test::decomposition_options())
         , alone(exec, scene, built_)
         , together(exec, with(owners, scene), built_, given(size, owner))
     {

@@ -4,6 +4,7 @@
 
 #include "backend.hpp"
 #include "base/random.hpp"
+#include "decomposition_options.hpp"
 #include "kernels/mpm/transfers/scatter.hpp"
 #include "mpi_session.hpp"
 
@@ -85,7 +86,7 @@ Values sum(const std::vector<Values>& parts)
 
 TYPED_TEST(GridHalos, GiveTheBitsOfAnExchangeAfterAllPages)
 {
-    Decomposition<TypeParam>             ranks(test::world(), this->exec(), {});
+    Decomposition<TypeParam>             ranks(test::world(), this->exec(), test::decomposition_options());
     mpm::Points<TypeParam, double>       points = this->cloud(5000);
     mpm::Pages<TypeParam>                pages(this->exec());
     mpm::OrderScratch<TypeParam, double> scratch(this->exec());
