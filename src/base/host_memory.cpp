@@ -7,6 +7,9 @@
 #include <optional>
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -115,6 +118,13 @@ void require_host_memory(const HostDemand& demand)
                                        "memory",
                                        demand.what, bytes_text(saturated(demand.bytes)), bytes_text(free),
                                        demand.advice));
+}
+
+void return_freed_memory()
+{
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
 }
 
 } // namespace tread

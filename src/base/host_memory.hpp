@@ -27,4 +27,8 @@ struct HostDemand
 /// EnvironmentError, with both figures, if the demand exceeds the available memory.
 void require_host_memory(const HostDemand& demand);
 
+/// Returns memory that was freed to the machine. The C library keeps it otherwise: what set-up took and freed would
+/// count with what a run holds.
+void return_freed_memory();
+
 } // namespace tread

@@ -7,21 +7,24 @@
 #include <fmt/format.h>
 
 #include "backend/instantiate.hpp"
+#include "base/host_memory.hpp"
 #include "io/checkpoints.hpp"
 #include "run/resolution_figures.hpp"
+#include "world/world_measures.hpp"
 
 namespace tread::run
 {
 
 template<class Exec, class Real>
-Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const scene::Scene& scene,
-                           const world::World& world, const io::RunDirectory& directory, const solver::Plan& plan,
+Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, world::World& world,
+                           const io::RunDirectory& directory, const solver::Plan& plan,
                            solver::Simulation<Exec, Real>& simulation, std::vector<DriveRoom> rooms,
                            const DriverOptions& options)
     : communicator_(communicator)
     , log_(log)
     , scene_(scene)
     , world_(world)
+    , body_measures_(world::body_measures(world.bodies))
     , plan_(plan)
     , directory_(directory)
     , simulation_(simulation)
@@ -30,10 +33,11 @@ Driver<Exec, Real>::Driver(const Communicator& communicator, Log& log, const sce
     , loop_(scene, world, simulation)
     , output_({communicator, scene, world, plan, directory, options.provenance}, loop_)
     , visits_(communicator, log, world, plan, options.visitor, loop_)
-    , wall_start_(wall_clock())
-    , messages_{wall_start_}
 {
     on_root(communicator, [&] { io::Checkpoints(directory_.checkpoints()).prepare(); });
+    begin_simulation();
+    wall_start_ = wall_clock();
+    messages_   = {wall_start_};
 }
 
 /// However it ends, all rows of the time series are in the file.
@@ -96,6 +100,16 @@ LoopCalls Driver<Exec, Real>::calls()
     calls.phase_ends     = [this] { end_phase(); };
     calls.phase_begins   = [this] { begin_phase(); };
     return calls;
+}
+
+/// The description of the rocks goes before their pairs come; a checkpoint needs it until it is loaded.
+template<class Exec, class Real>
+void Driver<Exec, Real>::begin_simulation()
+{
+    if (options_.checkpoint.empty()) { world::release_rocks(world_); }
+    return_freed_memory();
+    simulation_.begin();
+    world_.contacts = {};
 }
 
 template<class Exec, class Real>

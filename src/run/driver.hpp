@@ -45,8 +45,8 @@ template<class Exec, class Real>
 class Driver
 {
 public:
-    /// `rooms`: from drive_rooms.
-    Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, const world::World& world,
+    /// `rooms`: from drive_rooms. `world`: loses its rocks (release_rocks) once the run has begun.
+    Driver(const Communicator& communicator, Log& log, const scene::Scene& scene, world::World& world,
            const io::RunDirectory& directory, const solver::Plan& plan, solver::Simulation<Exec, Real>& simulation,
            std::vector<DriveRoom> rooms, const DriverOptions& options);
     Driver(const Driver&)            = delete;
@@ -63,6 +63,7 @@ private:
     LoopCalls                  calls();
     std::optional<std::string> run_to_end();
 
+    void begin_simulation();
     void start();
     void resume();
     void load_checkpoint();
@@ -84,7 +85,8 @@ private:
     const Communicator&             communicator_;
     Log&                            log_;
     const scene::Scene&             scene_;
-    const world::World&             world_;
+    world::World&                   world_;
+    const std::vector<double>       body_measures_; ///< of the world with its rocks
     solver::Plan                    plan_;
     io::RunDirectory                directory_;
     solver::Simulation<Exec, Real>& simulation_;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "backend/instantiate.hpp"
+#include "base/host_memory.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/checkpoints.hpp"
 #include "run/driver.hpp"
@@ -106,6 +107,8 @@ void Driver<Exec, Real>::resume()
         if (communicator_.rank() == 0) { directory_.undo(); }
         throw;
     }
+    world::release_rocks(world_);
+    return_freed_memory();
     ++history_.restarts;
     output_.resume();
     const RunProgress& progress = loop_.progress;
@@ -175,7 +178,7 @@ void Driver<Exec, Real>::transfer(solver::StateFile& file)
 template<class Exec, class Real>
 void Driver<Exec, Real>::require_same_world(solver::StateFile& file) const
 {
-    const std::vector<double> here  = world::measures(world_);
+    const std::vector<double> here  = world::measures(world_, body_measures_);
     std::vector<double>       there = here;
     file.common("run/world", there, solver::accept::all(solver::accept::rows(here.size()), solver::accept::finite()));
     if (world::are_same(here, there)) { return; }

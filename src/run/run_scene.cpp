@@ -12,6 +12,7 @@
 
 #include "backend/backends.hpp"
 #include "backend/memory.hpp"
+#include "base/host_memory.hpp"
 #include "base/version.hpp"
 #include "decomp/single_rank.hpp"
 #include "io/checkpoint_file.hpp"
@@ -90,7 +91,7 @@ struct Job
     const Communicator&        communicator;
     Log&                       log;
     const scene::Scene&        scene;
-    const world::World&        world;
+    world::World&              world;
     std::vector<DriveRoom>     rooms; ///< one for each driven body
     solver::Plan               plan;
     Estimate                   wants;
@@ -112,6 +113,7 @@ std::optional<decomp::Decomposition<Exec>> decompose(const Exec& exec, Job& job)
     decomposition.emplace(job.communicator, exec, job.options.decomposition);
     job.log.info(fmt::format("transport: {}", decomposition->transport.description()));
     job.log.info(fmt::format("partition: {}", solver::share_out(*decomposition, job.world)));
+    return_freed_memory();
     return decomposition;
 }
 
@@ -303,8 +305,9 @@ ExitCode run_scene(const Communicator& communicator, Log& log, Watchdog* watchdo
     const io::NewRun place{options.output, restart.existing, scene::resolved_toml(scene),
                            needed_files(scene, options, restart)};
     io::RunDirectory::require_free(communicator, place);
-    const world::World world = world::build_world(scene);
-    const solver::Plan plan  = solver::make_plan(scene, world, communicator.size());
+    world::World world = world::build_world(scene);
+    return_freed_memory();
+    const solver::Plan plan = solver::make_plan(scene, world, communicator.size());
     require_ranks_can(communicator, scene);
     const std::string start = start_of(communicator, restart.checkpoint);
 

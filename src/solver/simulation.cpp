@@ -71,10 +71,15 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     {
         coupling_.emplace(exec, scene, world, rigid_->templates(), rigid_->pair_table(), decomposition);
     }
-    if (plan.body_contact)
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::begin()
+{
+    if (plan_.body_contact)
     {
-        rigid_->find_pairs(choose_step(scene.time, limits_, measuring_.pace, 0).dt);
-        if (!world.contacts.empty()) { rigid_->contact(0); } // the ledger starts with the contacts' energy
+        rigid_->find_pairs(choose_step(scene_.time, limits_, measuring_.pace, 0).dt);
+        if (!world_.contacts.empty()) { rigid_->contact(0); } // the ledger starts with the contacts' energy
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
     }
     const Census start = census();

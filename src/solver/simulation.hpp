@@ -26,10 +26,14 @@ template<class Exec, class Real>
 class Simulation
 {
 public:
-    /// `plan`: of a run on as many ranks; std::logic_error if it leaves out what several ranks need. `decomposition`:
-    /// ownership of pages; null on one rank.
+    /// Builds the parts. `plan`: of a run on as many ranks; std::logic_error if it leaves out what several ranks need.
+    /// `decomposition`: ownership of pages; null on one rank.
     Simulation(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
                decomp::Decomposition<Exec>* decomposition = nullptr);
+
+    /// Finds the pairs of bodies, and takes the census that the balances start from. Call once, before all else; the
+    /// rocks of `world` may have been released (world::release_rocks).
+    void begin();
 
     const Exec& exec() const { return exec_; }
 

@@ -80,7 +80,7 @@ ContactEnergies Simulation<Exec, Real>::contact_energies() const
     std::vector<double> zero(sides * sides, 0);
     ContactEnergies     energies{zero, zero};
     rigid_->add_contact_energies(sides, energies.bodies);
-    if (coupling_) { coupling_->add_contact_energies(world_.bodies.material, sides, energies.sand); }
+    if (coupling_) { coupling_->add_contact_energies(rigid_->materials(), sides, energies.sand); }
     if (decomposition_ == nullptr) { return energies; }
     for (std::vector<double>* of_pairs : {&energies.bodies, &energies.sand})
     {
@@ -97,7 +97,7 @@ void Simulation<Exec, Real>::require_apart(double time)
     const auto        phase  = static_cast<std::size_t>(phase_);
     if (plan_.body_contact) { rigid_->require_apart(change, phase, time); }
     if (!coupling_) { return; }
-    const NewTouch found = coupling_->new_touch(rigid_->view(), world_.bodies.material, change);
+    const NewTouch found = coupling_->new_touch(rigid_->view(), rigid_->materials(), change);
     if (found.points == 0) { return; }
     refuse_new_touch(found, rigid_->name(found.body), scene_.phases[phase].name, time);
 }

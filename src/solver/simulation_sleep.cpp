@@ -48,7 +48,7 @@ template<class Exec, class Real>
 std::vector<BodyReach> Simulation<Exec, Real>::sand_wakers()
 {
     const double edge = mpm::page_edge * scene_.grid.spacing;
-    return bodies_that_wake_sand(exec_, rigid_->view(), rigid_->sleepers(), world_, rigid_->numbers(),
+    return bodies_that_wake_sand(exec_, rigid_->view(), rigid_->sleepers(), rigid_->bounding_radii(),
                                  {scene_.sleep.distance.value(), edge, scene_.sleep.rest, gravity_.norm()});
 }
 

@@ -57,7 +57,6 @@ void resize(HostBodies& bodies, std::size_t size)
 {
     bodies.position.resize(size);
     bodies.orientation.resize(size, Quat::Identity());
-    bodies.velocity.resize(size);
     bodies.mass.resize(size);
     bodies.scale.resize(size);
     bodies.radius.resize(size);
@@ -97,7 +96,6 @@ public:
         const std::int32_t shape = members_[static_cast<std::size_t>(rock.member)];
         const auto&        form  = world_.templates[static_cast<std::size_t>(shape)];
         const double       scale = rock.diameter / volume_diameter(form);
-        bodies.velocity[body_]   = Vec3<double>::Zero();
         bodies.mass[body_]       = density_ * form.unit.volume * scale * scale * scale;
         bodies.scale[body_]      = scale;
         bodies.radius[body_]     = 0.5 * rock.diameter;

@@ -116,8 +116,10 @@ io::BedFile make_bed(const scene::Scene& scene, const World& world, const io::Bo
         bed.kinds.insert(bed.kinds.end(), kinds.begin(), kinds.end());
         for (; first < world.bodies.rocks_end[table]; ++first)
         {
-            bed.kind.push_back(before + world.bodies.shape[first]);
-            bed.diameter.push_back(2 * world.bodies.radius[first]);
+            const std::int32_t shape = bodies.shape[first];
+            bed.kind.push_back(before + shape);
+            bed.diameter.push_back(bodies.scale[first] *
+                                   volume_diameter(world.templates[static_cast<std::size_t>(shape)]));
         }
     }
     const auto from = [&](const std::vector<double>& values, std::size_t width)
@@ -288,7 +290,6 @@ void SavedBeds::place(std::size_t table, World& world)
         from.body[rock] = static_cast<std::int64_t>(bodies.size());
         bodies.position.emplace_back(file.position.data() + 3 * rock);
         bodies.orientation.emplace_back(turn[0], turn[1], turn[2], turn[3]);
-        bodies.velocity.push_back(Vec3<double>::Zero());
         bodies.mass.push_back(kind.density * form.unit.volume * std::pow(file.scale[rock], 3));
         bodies.scale.push_back(file.scale[rock]);
         bodies.radius.push_back(0.5 * file.diameter[rock]);

@@ -226,7 +226,35 @@ void add_rocks(const scene::Scene& scene, const std::vector<std::vector<RockDraw
     require_no_voids(scene, world);
 }
 
+/// m, median of the bodies' diameters; 0 without bodies.
+double middle_diameter(std::vector<double> radii)
+{
+    if (radii.empty()) { return 0; }
+    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
+    std::nth_element(radii.begin(), middle, radii.end());
+    return 2 * *middle;
+}
+
 } // namespace
+
+void release_rocks(World& world)
+{
+    HostBodies& bodies = world.bodies;
+    const auto  named  = static_cast<std::size_t>(bodies.named);
+    const auto  cut    = [named](auto& values)
+    {
+        values.resize(named);
+        values.shrink_to_fit();
+    };
+    bodies.released += bodies.position.size() - named;
+    cut(bodies.position);
+    cut(bodies.orientation);
+    cut(bodies.mass);
+    cut(bodies.scale);
+    cut(bodies.radius);
+    cut(bodies.shape);
+    cut(bodies.material);
+}
 
 double patch_side(double area, const World& world)
 {
@@ -268,6 +296,7 @@ World build_world(const scene::Scene& scene)
     add_rocks(scene, draws, beds, world);
     require_room_for_columns(scene, world);
     find_heights(scene, world);
+    world.middle_diameter = middle_diameter(world.bodies.radius);
     if (!scene.joints.empty()) { world.joints = make_joints(scene, world.bodies); }
     return world;
 }

@@ -21,18 +21,19 @@ namespace tread::world
 /// Rigid bodies: first the scene's [[body]] tables in their order, then the rocks.
 struct HostBodies
 {
-    std::vector<Vec3<double>> position;    ///< m, centre of mass
-    std::vector<Quat>         orientation; ///< body to world
-    std::vector<Vec3<double>> velocity;    ///< m/s
-    std::vector<double>       mass;        ///< kg
-    std::vector<double>       scale;       ///< relative to the template
-    std::vector<double>       radius;      ///< m, radius of the sphere of equal volume
-    std::vector<std::int32_t> shape;       ///< index into World::templates
-    std::vector<std::int32_t> material;    ///< index into Scene::materials
-    std::int64_t              named = 0;   ///< number of bodies of [[body]] tables
-    std::vector<std::size_t>  rocks_end;   ///< for each [[rocks]] table: one past its last body
+    std::vector<Vec3<double>> position;     ///< m, centre of mass
+    std::vector<Quat>         orientation;  ///< body to world
+    std::vector<Vec3<double>> velocity;     ///< m/s, of named bodies; rocks begin at rest
+    std::vector<double>       mass;         ///< kg
+    std::vector<double>       scale;        ///< relative to the template
+    std::vector<double>       radius;       ///< m, radius of the sphere of equal volume
+    std::vector<std::int32_t> shape;        ///< index into World::templates
+    std::vector<std::int32_t> material;     ///< index into Scene::materials
+    std::int64_t              named = 0;    ///< number of bodies of [[body]] tables
+    std::vector<std::size_t>  rocks_end;    ///< for each [[rocks]] table: one past its last body
+    std::size_t               released = 0; ///< number of rocks whose description is gone (release_rocks)
 
-    std::size_t size() const { return position.size(); }
+    std::size_t size() const { return position.size() + released; }
 };
 
 /// Contact record of a pair: its key (kernels/dem/pairs/pairs.hpp), in which walls are numbered after the bodies. A
@@ -71,11 +72,16 @@ struct World
     std::vector<ContactRecord>        contacts; ///< initial contacts of the bodies, by ascending key
     std::vector<dem::Joint>           joints;   ///< of [[joint]] tables, in their order; motors as in the first phase
     double point_spacing;                       ///< m, smallest distance between neighbouring points; 0 without sand
+    double middle_diameter;                     ///< m, median of the bodies' diameters; 0 without bodies
 };
 
 /// Builds sand, rocks and bodies of a scene; InputError where geometry is impossible: a body or rock that overlaps
 /// another, a wall or the sand (unless it replaces it), a shape over 100 times the domain, a region too small.
 World build_world(const scene::Scene& scene);
+
+/// Frees the description of the rocks, of which a simulation holds what it needs: each rank that of its own. Named
+/// bodies and the number of bodies stay.
+void release_rocks(World& world);
 
 /// Side of a contact patch on the bed, m: that of the square of the same area, or, where the domain is narrower than
 /// that square (a slab in plane strain), of the rectangle across the domain.

@@ -57,12 +57,19 @@ void add_masses(const std::vector<Vec3<double>>& place, const std::vector<double
 
 } // namespace
 
-std::vector<double> measures(const World& world)
+std::vector<double> body_measures(const HostBodies& bodies)
+{
+    std::vector<double> found;
+    add_masses(bodies.position, bodies.mass, found);
+    add_masses(bodies.position, bodies.scale, found);
+    return found;
+}
+
+std::vector<double> measures(const World& world, const std::vector<double>& bodies)
 {
     std::vector<double> found;
     add_sand(world.sand, found);
-    add_masses(world.bodies.position, world.bodies.mass, found);
-    add_masses(world.bodies.position, world.bodies.scale, found);
+    found.insert(found.end(), bodies.begin(), bodies.end());
     for (const shape::ShapeTemplate& form : world.templates)
     {
         found.insert(found.end(), {form.unit.volume, static_cast<double>(form.mesh.triangles.size()),

@@ -31,6 +31,7 @@ public:
         , simulation_(exec, scene, world, plan_, decomposition)
         , loop_(scene, world, simulation_)
     {
+        simulation_.begin();
     }
 
     /// Wall time (s) of `steps` whole steps.

@@ -41,13 +41,15 @@ public:
                       decomposition)
         , loop_(scene_, world_, simulation_)
     {
+        world::release_rocks(world_);
+        simulation_.begin();
     }
     Experiment(const Experiment&)            = delete;
     Experiment& operator=(const Experiment&) = delete;
 
     Simulation&         simulation() { return simulation_; }
     const scene::Scene& scene() const { return scene_; }
-    const world::World& world() const { return world_; }
+    const world::World& world() const { return world_; } ///< without its rocks, as in any run that has begun
     double              time() const { return loop_.progress.time; }
 
     /// s, length of the last step.

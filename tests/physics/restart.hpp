@@ -36,6 +36,7 @@ public:
         , simulation_(exec, scene_, world_, solver::make_plan(scene_, world_))
         , loop_(scene_, world_, simulation_)
     {
+        simulation_.begin();
     }
 
     /// Runs at least `steps` steps, until the state may be saved. The last phase does not end.

@@ -232,18 +232,18 @@ protected:
 
     static Nearest nearest_sleeping_point(Run& run)
     {
-        auto&      sand     = run.simulation().sand();
-        const auto x        = sand.positions(); // sleeping points come last
-        const auto asleep   = sleepers(run);
-        const auto position = run.simulation().body_fields().position;
-        Nearest    found    = nowhere;
+        auto&                sand   = run.simulation().sand();
+        const auto           x      = sand.positions(); // sleeping points come last
+        const auto           asleep = sleepers(run);
+        const io::BodyFields bodies = run.simulation().body_fields();
+        Nearest              found  = nowhere;
         for (std::size_t b = 0; b < asleep.size(); ++b)
         {
             double& nearest = static_cast<std::int64_t>(b) < run.world().bodies.named ? found.to_named : found.to_rocks;
             if (asleep[b] != 0) { continue; }
-            const auto&        form   = world::template_of(run.world(), b);
-            const double       radius = form.bounding_radius * run.world().bodies.scale[b];
-            const Vec3<double> centre(position.data() + 3 * b);
+            const auto&        form   = run.world().templates[static_cast<std::size_t>(bodies.shape[b])];
+            const double       radius = form.bounding_radius * bodies.scale[b];
+            const Vec3<double> centre(bodies.position.data() + 3 * b);
             for (auto i = static_cast<std::size_t>(sand.view().count); i < x.size(); ++i)
             {
                 nearest = std::min(nearest, (x[i] - centre).norm() - radius);

@@ -40,6 +40,8 @@ public:
             exec, scene_, world_, solver::make_plan(scene_, world_, decomposition_ ? test::world().size() : 1),
             decomposition_.get());
         loop_ = std::make_unique<tread::run::TimeLoop<Exec, Real>>(scene_, world_, *simulation_);
+        world::release_rocks(world_);
+        simulation_->begin();
     }
 
     void step(int steps)

@@ -122,12 +122,10 @@ template<class Exec>
 void add_rocks(const BodyState<Exec>& state, world::TerrainBins& bins)
 {
     const std::vector<Vec3<double>> position = state.bodies.position.to_host();
+    const std::vector<double>       radius   = state.radii();
     for (auto b = static_cast<std::size_t>(state.named()); b < position.size(); ++b)
     {
-        const auto row = static_cast<std::int64_t>(b);
-        if (!state.owns(row)) { continue; }
-        const auto number = static_cast<std::size_t>(state.numbers().number(row));
-        bins.add_sphere(position[b], state.world.bodies.radius[number]);
+        if (state.owns(static_cast<std::int64_t>(b))) { bins.add_sphere(position[b], radius[b]); }
     }
 }
 

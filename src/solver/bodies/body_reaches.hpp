@@ -5,7 +5,6 @@
 
 #include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "solver/sand/page_rest.hpp"
-#include "world/world.hpp"
 
 namespace tread::solver
 {
@@ -25,11 +24,11 @@ inline constexpr int reach_slack = 2;
 /// Lists the bodies that keep sand awake: named ones, and rocks that are awake and not at rest. A rock that moves wakes
 /// sand as far as it may come before the next look and a diameter beyond; another one, which only trembles, sand that
 /// it may touch. Rocks at rest follow the sand. Without rocks that sleep, all bodies are as named ones. On several
-/// ranks: those of this rank. Synchronises.
+/// ranks: those of this rank. `bounding_radii`: m, of each row's body. Synchronises.
 template<class Exec>
 std::vector<BodyReach> bodies_that_wake_sand(const Exec& exec, const dem::BodiesView& bodies,
-                                             const dem::SleepingBodies<Exec>& sleepers, const world::World& world,
-                                             const BodyNumbers& numbers, const WakingRule& rule)
+                                             const dem::SleepingBodies<Exec>& sleepers,
+                                             const std::vector<double>& bounding_radii, const WakingRule& rule)
 {
     const auto                count = static_cast<std::size_t>(bodies.count);
     std::vector<Vec3<double>> centre(count), velocity(count);
@@ -45,9 +44,7 @@ std::vector<BodyReach> bodies_that_wake_sand(const Exec& exec, const dem::Bodies
     for (std::size_t b = 0; b < count; ++b)
     {
         if (!role.empty() && role[b] != dem::role_owner) { continue; }
-        const auto   body   = static_cast<std::size_t>(numbers.number(static_cast<std::int64_t>(b)));
-        const auto&  form   = world::template_of(world, body);
-        const double radius = form.bounding_radius * world.bodies.scale[body], far = radius + rule.distance;
+        const double radius = bounding_radii[b], far = radius + rule.distance;
         if (asleep.empty() || static_cast<std::int64_t>(b) < sleepers.rule.first)
         {
             reaches.push_back({centre[b], far, far + reach_slack * rule.page_edge});

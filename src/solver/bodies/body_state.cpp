@@ -196,6 +196,18 @@ std::string BodyState<Exec>::name_of_number(std::int64_t number) const
 }
 
 template<class Exec>
+std::vector<double> BodyState<Exec>::radii() const
+{
+    std::vector<double>             radius = bodies.scale.to_host();
+    const std::vector<std::int32_t> shape  = bodies.shape.to_host();
+    for (std::size_t row = 0; row < radius.size(); ++row)
+    {
+        radius[row] *= world.templates[static_cast<std::size_t>(shape[row])].equivalent_radius;
+    }
+    return radius;
+}
+
+template<class Exec>
 void BodyState<Exec>::transfer(StateFile& file)
 {
     if (ranks && file.exact()) { ranks->transfer(file); }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kernels/dem/bodies.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
@@ -36,6 +37,9 @@ struct BodyState
     /// Name for messages of a row's body: that of a named body, or "rock 17".
     std::string name(std::int64_t row) const { return name_of_number(numbers().number(row)); }
     std::string name_of_number(std::int64_t number) const;
+
+    /// m, radius of the sphere of equal volume of each row's body; of a wheel, that of its rim.
+    std::vector<double> radii() const;
 
     /// Passes changes of the bodies on to the data that contacts read.
     void stage() { dem::stage_bodies(exec, pairs, bodies.view()); }

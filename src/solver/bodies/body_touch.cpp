@@ -14,15 +14,12 @@ namespace tread::solver
 namespace
 {
 
-/// Materials of a pair, the smaller index first; that of a wall is the last.
-template<class Exec>
-std::pair<std::size_t, std::size_t> materials_of(const BodyState<Exec>& state, std::size_t wall, std::uint64_t key)
+/// Materials of a pair, the smaller index first; that of a wall is the last. `material`: of each row's body.
+std::pair<std::size_t, std::size_t> materials_of(const std::vector<std::int32_t>& material, std::size_t wall,
+                                                 std::uint64_t key)
 {
-    const std::vector<std::int32_t>& material = state.world.bodies.material;
-    const std::uint64_t              number   = state.numbers().key_in_scene(key);
-    const auto                       a        = static_cast<std::size_t>(dem::first_of(number)),
-               b                              = static_cast<std::size_t>(dem::second_of(number));
-    const auto one                            = static_cast<std::size_t>(material[a]);
+    const auto a = static_cast<std::size_t>(dem::first_of(key)), b = static_cast<std::size_t>(dem::second_of(key));
+    const auto one = static_cast<std::size_t>(material[a]);
     return std::minmax({one, b < material.size() ? static_cast<std::size_t>(material[b]) : wall});
 }
 
@@ -39,24 +36,20 @@ std::vector<double> present_overlaps(BodyState<Exec>& state)
     return pairs.peak.to_host();
 }
 
-/// m, the smaller radius of a pair; a wall has none.
-template<class Exec>
-double smaller_radius(const BodyState<Exec>& state, std::uint64_t key)
+/// m, accepted overlap of a pair that begins to touch: a share of the smaller radius; a wall has none. `radius`: of
+/// each row's body.
+double most_overlap(const std::vector<double>& radius, std::uint64_t key)
 {
-    const std::vector<double>& radius = state.world.bodies.radius;
-    const std::uint64_t        number = state.numbers().key_in_scene(key);
-    const auto                 a      = static_cast<std::size_t>(dem::first_of(number));
-    const auto                 b      = static_cast<std::size_t>(dem::second_of(number));
-    return b < radius.size() ? std::min(radius[a], radius[b]) : radius[a];
+    const auto a = static_cast<std::size_t>(dem::first_of(key)), b = static_cast<std::size_t>(dem::second_of(key));
+    return deepest_new_touch * (b < radius.size() ? std::min(radius[a], radius[b]) : radius[a]);
 }
 
 template<class Exec>
-[[noreturn]] void refuse(const BodyState<Exec>& state, std::uint64_t key, double overlap, std::size_t phase,
-                         double time)
+[[noreturn]] void refuse(const BodyState<Exec>& state, std::uint64_t key, double overlap, double most,
+                         std::size_t phase, double time)
 {
     const std::int64_t b    = dem::second_of(key);
     const bool         wall = b >= state.bodies.position.size();
-    const double       most = deepest_new_touch * smaller_radius(state, key);
     throw NumericalError(fmt::format("t = {:.6g} s: body {} and {} begin to touch in phase '{}', and overlap by {:.3g} "
                                      "m; accepted: at most {:.3g} m, so that the contact does not throw them apart: "
                                      "move them apart before the phase",
@@ -69,18 +62,19 @@ template<class Exec>
 template<class Exec>
 void add_contact_energies(const BodyState<Exec>& state, std::size_t sides, std::vector<double>& energies)
 {
-    const std::vector<std::uint64_t> keys   = state.pairs.key.to_host();
-    const std::vector<double>        energy = state.pairs.answers.energy.to_host();
+    const std::vector<std::int32_t>  material = state.bodies.material.to_host();
+    const std::vector<std::uint64_t> keys     = state.pairs.key.to_host();
+    const std::vector<double>        energy   = state.pairs.answers.energy.to_host();
     for (std::size_t p = 0; p < energy.size(); ++p)
     {
-        const auto [a, b] = materials_of(state, sides - 1, keys[p]);
+        const auto [a, b] = materials_of(material, sides - 1, keys[p]);
         energies[a * sides + b] += energy[p];
     }
     const std::vector<std::uint64_t>    kept     = state.pairs.sleep.pairs.key.to_host();
     const std::vector<dem::HeldContact> contacts = state.pairs.sleep.pairs.contact.to_host();
     for (std::size_t p = 0; p < kept.size(); ++p)
     {
-        const auto [a, b] = materials_of(state, sides - 1, kept[p]);
+        const auto [a, b] = materials_of(material, sides - 1, kept[p]);
         energies[a * sides + b] += contacts[p].energy;
     }
 }
@@ -88,6 +82,8 @@ void add_contact_energies(const BodyState<Exec>& state, std::size_t sides, std::
 template<class Exec>
 void require_apart(BodyState<Exec>& state, const TouchChange& change, std::size_t phase, double time)
 {
+    const std::vector<std::int32_t>  material = state.bodies.material.to_host();
+    const std::vector<double>        radius   = state.radii();
     const std::vector<std::uint64_t> keys     = state.pairs.key.to_host();
     const std::vector<double>        overlaps = present_overlaps(state);
     check_on_ranks(state.communicator(),
@@ -95,10 +91,10 @@ void require_apart(BodyState<Exec>& state, const TouchChange& change, std::size_
                    {
                        for (std::size_t p = 0; p < keys.size(); ++p)
                        {
-                           const auto [a, b] = materials_of(state, change.after.wall(), keys[p]);
+                           const auto [a, b] = materials_of(material, change.after.wall(), keys[p]);
                            if (!change.begins(a, b)) { continue; }
-                           if (overlaps[p] <= deepest_new_touch * smaller_radius(state, keys[p])) { continue; }
-                           refuse(state, keys[p], overlaps[p], phase, time);
+                           const double most = most_overlap(radius, keys[p]);
+                           if (overlaps[p] > most) { refuse(state, keys[p], overlaps[p], most, phase, time); }
                        }
                    });
 }

@@ -70,6 +70,12 @@ public:
     /// Numbers of the bodies that this rank has rows for.
     const BodyNumbers& numbers() const { return state_.numbers(); }
 
+    /// Material of each body that this rank has a row for.
+    BodyMaterials materials() const { return {state_.numbers(), state_.bodies.material.to_host()}; }
+
+    /// m, distance of each row's body from its centre to its farthest point.
+    std::vector<double> bounding_radii() const { return state_.tables.bounding_radii.to_host(); }
+
     /// Change of rows when owners were assigned last; null where there was none.
     const RowMoves<Exec>* row_moves() const { return state_.row_moves(); }
 

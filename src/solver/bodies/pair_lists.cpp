@@ -82,24 +82,23 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     lists.listed = true;
 }
 
-/// Number of nodes of the surface of a row's body.
-std::int64_t nodes_of(const world::World& world, const BodyNumbers& numbers, std::int64_t row)
-{
-    const auto shape = static_cast<std::size_t>(world.bodies.shape[static_cast<std::size_t>(numbers.number(row))]);
-    return static_cast<std::int64_t>(world.templates[shape].nodes.positions.size());
-}
-
-/// Accepts, for each pair, nodes of its bodies: i of the first, ~i of the second. `first`: start of each pair's nodes.
-auto accepted_nodes(const world::World& world, const BodyNumbers& numbers, const std::vector<std::uint64_t>& keys,
-                    const std::vector<std::int32_t>& first)
+/// Accepts, for each pair, nodes of its bodies: i of the first, ~i of the second. `shape`: of each row's body. `first`:
+/// start of each pair's nodes.
+auto accepted_nodes(const world::World& world, const std::vector<std::int32_t>& shape,
+                    const std::vector<std::uint64_t>& keys, const std::vector<std::int32_t>& first)
 {
     return [&](const std::vector<std::int32_t>& values) -> accept::Verdict
     {
+        const auto nodes_of = [&](std::int64_t row)
+        {
+            const auto form = static_cast<std::size_t>(shape[static_cast<std::size_t>(row)]);
+            return static_cast<std::int64_t>(world.templates[form].nodes.positions.size());
+        };
         for (std::size_t pair = 0; pair + 1 < first.size(); ++pair)
         {
             const std::int64_t a = dem::first_of(keys[pair]), b = dem::second_of(keys[pair]);
-            const bool         wall = b >= static_cast<std::int64_t>(numbers.rows());
-            const std::int64_t high = nodes_of(world, numbers, a) - 1, low = wall ? 0 : -nodes_of(world, numbers, b);
+            const bool         wall = b >= static_cast<std::int64_t>(shape.size());
+            const std::int64_t high = nodes_of(a) - 1, low = wall ? 0 : -nodes_of(b);
             for (auto i = static_cast<std::size_t>(first[pair]); i < static_cast<std::size_t>(first[pair + 1]); ++i)
             {
                 if (low <= values[i] && values[i] <= high) { continue; }
@@ -227,12 +226,13 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     };
     std::vector<double>       peaks = pairs.peak.to_host();
     std::vector<std::int32_t> first = pairs.nodes.first.to_host();
+    const auto                shape = state.bodies.shape.to_host();
     file.own("pairs/peak", peaks, of_each(keys.size(), accept::finite()));
     file.own("pairs/travel", pairs.displacement.allowed, of_each(count, accept::not_negative()));
     file.own("pairs/first_node", first, of_each(keys.size() + 1, accept::cuts()));
     const std::size_t nodes = first.empty() ? 0 : static_cast<std::size_t>(std::max(first.back(), 0));
     file.own("pairs/node", pairs.nodes.node,
-             accept::all(accept::rows(nodes), accepted_nodes(state.world, state.numbers(), keys, first)));
+             accept::all(accept::rows(nodes), accepted_nodes(state.world, shape, keys, first)));
     file.own("pairs/several_first", pairs.patches.several,
              accept::all(accept::ascending(), accept::index(keys.size())));
     file.own("bodies/position_at_search", displacements.position, of_each(count, accept::finite()));

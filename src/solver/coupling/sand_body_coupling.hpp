@@ -6,6 +6,7 @@
 #include "decomp/decomposition.hpp"
 #include "kernels/contact/sleeping_contacts.hpp"
 #include "kernels/contact/substeps.hpp"
+#include "solver/ranks/body_numbers.hpp"
 #include "solver/sand/sand_sleep.hpp"
 #include "solver/touch_change.hpp"
 #include "world/world.hpp"
@@ -52,12 +53,10 @@ public:
 
     /// Adds the elastic energy (J) of this rank's contacts, as of the last substep, to that of their pair of materials:
     /// [sides x sides], smaller index first. `material`: of each body.
-    void add_contact_energies(const std::vector<std::int32_t>& material, std::size_t sides,
-                              std::vector<double>& energies) const;
+    void add_contact_energies(const BodyMaterials& material, std::size_t sides, std::vector<double>& energies) const;
 
     /// Overlaps of the pairs that begin to touch; call after find_candidates. `material`: of each body. Collective.
-    NewTouch new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
-                       const TouchChange& change);
+    NewTouch new_touch(const dem::BodiesView& bodies, const BodyMaterials& material, const TouchChange& change);
 
     /// Gives touched bodies their rows after others have come within a step. `row`: of each row before, the present
     /// one.
@@ -116,8 +115,7 @@ private:
 
     std::vector<std::int32_t> touched_bodies() const;
 
-    NewTouch own_new_touch(const dem::BodiesView& bodies, const std::vector<std::int32_t>& material,
-                           const TouchChange& change);
+    NewTouch own_new_touch(const dem::BodiesView& bodies, const BodyMaterials& material, const TouchChange& change);
 
     std::vector<contact::HistoryRecord> remembered();
 

@@ -20,7 +20,7 @@ std::vector<std::int32_t> SandBodyCoupling<Exec, Real>::touched_bodies() const
 }
 
 template<class Exec, class Real>
-void SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::int32_t>& material, std::size_t sides,
+void SandBodyCoupling<Exec, Real>::add_contact_energies(const BodyMaterials& material, std::size_t sides,
                                                         std::vector<double>& energies) const
 {
     const auto response = contact_.response.to_host();
@@ -33,23 +33,21 @@ void SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::i
     };
     for (std::size_t c = 0; c < response.size(); ++c)
     {
-        add(sand[static_cast<std::size_t>(touched[c])], material[static_cast<std::size_t>(body[c])],
-            response[c].energy);
+        add(sand[static_cast<std::size_t>(touched[c])], material[body[c]], response[c].energy);
     }
     const auto key            = asleep_.key.to_host();
     const auto asleep         = asleep_.response.to_host();
     const auto asleep_in_sand = asleep_.material.to_host();
     for (std::size_t i = 0; i < key.size(); ++i)
     {
-        add(asleep_in_sand[i], material[static_cast<std::size_t>(contact::body_of(key[i]))], asleep[i].energy);
+        add(asleep_in_sand[i], material[contact::body_of(key[i])], asleep[i].energy);
     }
 }
 
 /// Evaluates the contacts without letting time pass: what friction loses by it counts with the next substep.
 template<class Exec, class Real>
-NewTouch SandBodyCoupling<Exec, Real>::own_new_touch(const dem::BodiesView&           bodies,
-                                                     const std::vector<std::int32_t>& material,
-                                                     const TouchChange&               change)
+NewTouch SandBodyCoupling<Exec, Real>::own_new_touch(const dem::BodiesView& bodies, const BodyMaterials& material,
+                                                     const TouchChange& change)
 {
     NewTouch found;
     if (!any_near()) { return found; }
@@ -63,15 +61,15 @@ NewTouch SandBodyCoupling<Exec, Real>::own_new_touch(const dem::BodiesView&     
         const auto   point = static_cast<std::size_t>(touched[c]);
         const double most  = deepest_new_touch * radius[point];
         if (response[c].overlap <= most) { continue; }
-        if (!change.begins(sand[point], material[static_cast<std::size_t>(body[c])])) { continue; }
+        if (!change.begins(sand[point], material[body[c]])) { continue; }
         found = together(found, {1, response[c].overlap, most, body[c]});
     }
     return found;
 }
 
 template<class Exec, class Real>
-NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&           bodies,
-                                                 const std::vector<std::int32_t>& material, const TouchChange& change)
+NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView& bodies, const BodyMaterials& material,
+                                                 const TouchChange& change)
 {
     const NewTouch own = own_new_touch(bodies, material, change);
     if (communicator_ == nullptr) { return own; }
@@ -83,11 +81,11 @@ NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&         
     return all;
 }
 
-#define TREAD_INSTANTIATE(Exec, Real)                                                                                   \
-    template void     SandBodyCoupling<Exec, Real>::add_contact_energies(const std::vector<std::int32_t>&, std::size_t, \
-                                                                         std::vector<double>&) const;                   \
-    template NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&,                                   \
-                                                              const std::vector<std::int32_t>&, const TouchChange&)
+#define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void     SandBodyCoupling<Exec, Real>::add_contact_energies(const BodyMaterials&, std::size_t,            \
+                                                                         std::vector<double>&) const;                  \
+    template NewTouch SandBodyCoupling<Exec, Real>::new_touch(const dem::BodiesView&, const BodyMaterials&,            \
+                                                              const TouchChange&)
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -60,6 +60,21 @@ private:
     std::size_t                              bodies_;
 };
 
+/// A value of each row, read by the numbers of bodies that this rank has rows for.
+template<class T>
+struct ValuesByNumber
+{
+    const T& operator[](std::int64_t number) const
+    {
+        return of_rows[static_cast<std::size_t>(numbers.find_row(number).value())];
+    }
+
+    const BodyNumbers& numbers;
+    std::vector<T>     of_rows;
+};
+
+using BodyMaterials = ValuesByNumber<std::int32_t>;
+
 /// Change of rows: bodies have come and gone.
 struct RowChange
 {

@@ -21,11 +21,7 @@ namespace
 /// m, grid spacing. Without sand, a median diameter of the bodies.
 double spacing_of(const world::World& world)
 {
-    std::vector<double> radii = world.bodies.radius;
-    if (world.sand.size() > 0 || radii.empty()) { return world.geometry.spacing; }
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return 2 * *middle;
+    return world.sand.size() > 0 || world.bodies.size() == 0 ? world.geometry.spacing : world.middle_diameter;
 }
 
 using Loads = std::unordered_map<std::uint64_t, double>;

@@ -40,7 +40,7 @@ Names names_in(const std::string& directory)
 RunUse use_of_run(const std::string& text, const std::vector<std::string>& overrides)
 {
     const scene::Scene       scene = load_text(text, overrides);
-    const world::World       world = world::build_world(scene);
+    world::World             world = world::build_world(scene);
     const solver::Plan       plan  = solver::make_plan(scene, world);
     const TemporaryDirectory folder;
     Counters                 counters;
