@@ -102,6 +102,7 @@ void Simulation<Exec, Real>::command(const std::vector<BodyCommand>& commands, d
 template<class Exec, class Real>
 TimeStep Simulation<Exec, Real>::step(TimeStep step, double time, StageClock& clock)
 {
+    if (!ledger_) { throw std::logic_error("the simulation has not begun"); }
     // 1. Commands, the Courant number; points and bodies go to their ranks, points are listed.
     apply_commands(step);
     measure_before_change(step.dt);

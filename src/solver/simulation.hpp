@@ -31,8 +31,8 @@ public:
     Simulation(const Exec& exec, const scene::Scene& scene, const world::World& world, const Plan& plan,
                decomp::Decomposition<Exec>* decomposition = nullptr);
 
-    /// Finds the pairs of bodies, and takes the census that the balances start from. Call once, before all else; the
-    /// rocks of `world` may have been released (world::release_rocks).
+    /// Finds the pairs of bodies, and takes the census that the balances start from. Call once, before the first step
+    /// or a checkpoint is loaded; the rocks of `world` may have been released (world::release_rocks).
     void begin();
 
     const Exec& exec() const { return exec_; }

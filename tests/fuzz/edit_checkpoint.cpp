@@ -81,13 +81,14 @@ void go_on(const Built& from, const std::string& checkpoint)
             io::RunDirectory::create(*alone, {output, restart.existing, scene::resolved_toml(from.scene), {}});
         Counters                       counters;
         const Cpu                      cpu{&counters};
-        solver::Simulation<Cpu, float> simulation(cpu, from.scene, from.world, from.plan, nullptr);
+        world::World                   world = from.world; // the driver releases its rocks
+        solver::Simulation<Cpu, float> simulation(cpu, from.scene, world, from.plan, nullptr);
         run::DriverOptions             options;
         options.checkpoint     = restart.checkpoint;
         options.wall_start     = run::wall_clock();
         options.walltime_limit = 2; // time and steps of a changed file may be those of a long run
-        run::Driver<Cpu, float> driver(*alone, log, from.scene, from.world, directory, from.plan, simulation,
-                                       from.rooms, options);
+        run::Driver<Cpu, float> driver(*alone, log, from.scene, world, directory, from.plan, simulation, from.rooms,
+                                       options);
         driver.run();
     }
     catch (const Error&)

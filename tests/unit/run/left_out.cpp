@@ -27,6 +27,7 @@ Part used_by(const std::string& text)
     solver::StageClock               clock;
     std::vector<solver::BodyCommand> commands(scene.bodies.size());
     solver::TimeStep                 step;
+    simulation.begin();
     for (int i = 0; i < 5; ++i)
     {
         step = solver::choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);

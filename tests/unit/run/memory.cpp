@@ -34,6 +34,7 @@ Trial first_steps(const scene::Scene& scene, Counters& counters, int count = 3)
     solver::StageClock                     clock;
     solver::TimeStep                       step;
     const std::vector<solver::BodyCommand> commands(scene.bodies.size());
+    simulation.begin();
     for (int i = 0; i < count; ++i)
     {
         step = solver::choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);

@@ -37,6 +37,8 @@ drive    = { body = "ball", angular_velocity = 4.0, ramp = 0.02 }
 class TimeLoopTest : public testing::Test
 {
 protected:
+    TimeLoopTest() { simulation_.begin(); }
+
     double spin() { return spin_of(simulation_.named_bodies().at(0)); }
 
     Counters                        counters_;

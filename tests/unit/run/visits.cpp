@@ -41,6 +41,8 @@ duration = 0.01
 class VisitsTest : public testing::Test
 {
 protected:
+    VisitsTest() { simulation_.begin(); }
+
     /// Runs all phases with a visitor; returns the reason of a stop.
     std::optional<std::string> run(const Visitor& visitor)
     {

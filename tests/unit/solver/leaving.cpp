@@ -25,10 +25,11 @@ std::string thrown_out()
 
 TEST(Leaving, CountsWhatHasLeft)
 {
-    const scene::Scene        scene = test::load_text(thrown_out());
-    const world::World        world = world::build_world(scene);
-    Counters                  counters;
-    Simulation<Cpu, double>   simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
+    const scene::Scene      scene = test::load_text(thrown_out());
+    const world::World      world = world::build_world(scene);
+    Counters                counters;
+    Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
+    simulation.begin();
     const std::vector<Census> start{simulation.census()};
     StageClock                clock;
     TimeStep                  step;

@@ -28,6 +28,7 @@ TEST(Seam, FinerPointsOnCoarserOnesRestUnderTheirWeight)
     Simulation<Cpu, double> simulation(Cpu{&counters}, scene, world, make_plan(scene, world));
     StageClock              clock;
     TimeStep                step;
+    simulation.begin();
     for (double time = 0; time < 0.2; time += step.dt)
     {
         if (simulation.measured()) { step = choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt); }
