@@ -27,7 +27,7 @@ def row_of(run, first):
     height, distance = heap_of(run)
     energy, start = run.energy, first.energy
     early = np.searchsorted(energy["time"], EARLY)
-    kinetic = abs(energy["kinetic"][early] / start["kinetic"][early] - 1)
+    kinetic = abs(energy["kinetic_bodies"][early] / start["kinetic_bodies"][early] - 1)
     quantiles = [np.quantile(distance, share) for share in (0.5, 0.9, 0.99)]
     return [run.summary["ranks"], run.summary["steps"], kinetic, height.mean(), np.quantile(height, 0.99), *quantiles, run.summary["errors"]["energy"], run.summary["errors"]["momentum"]]
 

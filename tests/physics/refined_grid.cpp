@@ -146,7 +146,7 @@ TYPED_TEST(FullSizeRefinedGrid, BedStaysAtRest)
 
 /// The ball lands in the box and throws sand across its borders: momentum is conserved to rounding, energy accounted
 /// for.
-TYPED_TEST(RefinedGrid, EnergyBalanceOfABallClosesAcrossSeams)
+TYPED_TEST(FullSizeRefinedGrid, EnergyBalanceOfABallClosesAcrossSeams)
 {
     test::Experiment<TypeParam> run(this->exec(), bed(boxes) + ball);
     const double                unaccounted = test::largest_unaccounted(run);

@@ -17,6 +17,12 @@ class Skids : public test::BackendTest<Exec>
 };
 TYPED_TEST_SUITE(Skids, test::Backends, test::BackendNames);
 
+template<class Exec>
+class FullSizeSkids : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(FullSizeSkids, test::Backends, test::BackendNames);
+
 constexpr double radius = 0.1, width = 0.1, mass = 10, g = 9.81, friction = 0.5, speed = 0.3, span = 0.4;
 constexpr double drop   = 1e-4; ///< m, height of the fall on the plane
 constexpr double weight = mass * g, degree = std::numbers::pi / 180;
@@ -119,7 +125,7 @@ TYPED_TEST(Skids, AYawedWheelThatIsHeldIsPushedSidewaysByFrictionTimesLoad)
 }
 
 /// Cambered, it stands on a rim, and is pushed as before.
-TYPED_TEST(Skids, ACamberedWheelThatIsHeldIsPushedSidewaysByFrictionTimesLoad)
+TYPED_TEST(FullSizeSkids, ACamberedWheelThatIsHeldIsPushedSidewaysByFrictionTimesLoad)
 {
     constexpr double            yaw = 25 * degree, camber = 10 * degree;
     const double                height = radius * std::cos(camber) + 0.5 * width * std::sin(camber);

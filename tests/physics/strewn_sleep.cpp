@@ -27,7 +27,7 @@ TYPED_TEST_SUITE(FullSizeStrewnSleep, test::Backends, test::BackendNames);
 
 /// Rocks on and in sand: all of it falls asleep; from then on nothing is computed, and nothing changes its place by a
 /// bit.
-TYPED_TEST(StrewnSleep, ABedAtRestSleepsEntirely)
+TYPED_TEST(FullSizeStrewnSleep, ABedAtRestSleepsEntirely)
 {
     const std::string text = test::short_bed + test::phase("settle", 0.3, test::settled) + test::phase("rest", 0, 0.5);
     std::vector<double>       bodies, points;

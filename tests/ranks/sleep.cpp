@@ -110,9 +110,15 @@ protected:
 };
 TYPED_TEST_SUITE(SleepRanks, test::Backends, test::BackendNames);
 
+template<class Exec>
+class FullSizeSleepRanks : public SleepRanks<Exec>
+{
+};
+TYPED_TEST_SUITE(FullSizeSleepRanks, test::Backends, test::BackendNames);
+
 /// Pages fall asleep and wake on both sides of borders, as the roller passes over them. Rounding of sums in another
 /// order, over 300 steps without collisions, as in tests/ranks/coupled.cpp.
-TYPED_TEST(SleepRanks, AsOnOneRank)
+TYPED_TEST(FullSizeSleepRanks, AsOnOneRank)
 {
     test::SideBySide<TypeParam> run(this->exec(), test::load_text(trench_text), size,
                                     test::slabs(size[0], this->ranks()));

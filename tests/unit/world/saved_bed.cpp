@@ -35,9 +35,11 @@ poisson = 0.25
 [[shape]]
 name     = "ball"
 generate = {{ kind = "sphere", nodes = 162 }}
+sdf_cells = 32
 [[shape]]
 name     = "clast"
 generate = {{ kind = "rock", seed = 3, nodes = 162, variants = 2 }}
+sdf_cells = 32
 {}
 [[phase]]
 name     = "rest"

@@ -129,6 +129,7 @@ std::string two_balls(double second)
     text.replace(text.find("kind = \"wheel\""), text.find(" }\nsdf_cells") - text.find("kind = \"wheel\""),
                  "kind = \"sphere\", nodes = 162");
     text.replace(text.find("mass     = 4.0"), 14, "mass     = 4.0\ndiameter = 0.1");
+    text.erase(text.find("node_spacing"), text.find("[[body]]") - text.find("node_spacing")); // a wheel's
     return text + fmt::format(R"(
 [[body]]
 name     = "second"

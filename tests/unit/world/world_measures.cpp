@@ -24,10 +24,11 @@ TEST(WorldMeasures, AreTheSameForWhatIsBuiltTwiceAndForWhatWasRounded)
 
 TEST(WorldMeasures, DistinguishAPointARockAndAShape)
 {
-    const std::vector<double> expected = all_measures(built());
-    const auto                differs  = [&](const auto& change)
+    const World               unchanged = built();
+    const std::vector<double> expected  = all_measures(unchanged);
+    const auto                differs   = [&](const auto& change)
     {
-        World world = built();
+        World world = unchanged;
         change(world);
         return !are_same(expected, all_measures(world));
     };
