@@ -96,8 +96,8 @@ private:
     TimeLoop<Exec, Real>            loop_;
     RunOutput<Exec, Real>           output_;
     Visits<Exec, Real>              visits_;
-    double                          wall_start_;
-    ProgressMessages                messages_;
+    double                          wall_start_ = 0;
+    ProgressMessages                messages_{};
     RestartHistory                  history_;
     std::vector<io::PhaseReport>    ended_;
     std::optional<CheckpointClock>  checkpoint_clock_;
