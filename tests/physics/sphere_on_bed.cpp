@@ -8,13 +8,7 @@ namespace
 using namespace tread;
 
 template<class Exec>
-class SphereOnBed : public test::BackendTest<Exec>
-{
-};
-TYPED_TEST_SUITE(SphereOnBed, test::Backends, test::BackendNames);
-
-template<class Exec>
-class FullSizeSphereOnBed : public SphereOnBed<Exec>
+class FullSizeSphereOnBed : public test::BackendTest<Exec>
 {
 };
 TYPED_TEST_SUITE(FullSizeSphereOnBed, test::Backends, test::BackendNames);
@@ -100,7 +94,7 @@ void expect_no_torque(const Exec& exec, const std::string& form)
     EXPECT_LT(body.most_torque, most);
 }
 
-TYPED_TEST(SphereOnBed, FrictionlessBodyOfRevolutionFeelsNoTorque)
+TYPED_TEST(FullSizeSphereOnBed, FrictionlessBodyOfRevolutionFeelsNoTorque)
 {
     expect_no_torque(this->exec(), "kind = \"sphere\"");
 }

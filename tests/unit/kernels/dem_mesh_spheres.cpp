@@ -83,7 +83,7 @@ TYPED_TEST(MeshSpheres, LargestForceIsHertzsOnAverage)
         }
         std::printf(
             "%zu nodes: mean F_max of %d orientations %.1f N (%.0f to %.0f), expected %.1f N: %+.2f %%, tolerance "
-            "%.0f %% (issue)\n",
+            "%.0f %%\n",
             sphere.positions.size(), nodes.turns, mean, low, high, hertz.force, 100 * (mean / hertz.force - 1),
             100 * nodes.tolerance);
         EXPECT_NEAR(mean, hertz.force, nodes.tolerance * hertz.force);
