@@ -141,6 +141,7 @@ void set_geostatic_stress(const scene::Scene& scene, const HostBodies& bodies, c
 {
     const double gravity = -scene.domain.gravity[2];
     if (gravity <= 0 || points.size() == 0) { return; }
+    bodies.require_rocks();
     const double              area    = scene.grid.spacing * scene.grid.spacing;
     const std::vector<Weight> weights = sorted_weights(scene, bodies, sand, points);
     double                    above   = 0;

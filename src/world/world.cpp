@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
@@ -236,6 +237,11 @@ double middle_diameter(std::vector<double> radii)
 }
 
 } // namespace
+
+void HostBodies::require_rocks() const
+{
+    if (released > 0) { throw std::logic_error("the description of the rocks was released"); }
+}
 
 void release_rocks(World& world)
 {

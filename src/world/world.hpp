@@ -34,6 +34,9 @@ struct HostBodies
     std::size_t               released = 0; ///< number of rocks whose description is gone (release_rocks)
 
     std::size_t size() const { return position.size() + released; }
+
+    /// std::logic_error once rocks have been released: for functions that go through all bodies.
+    void require_rocks() const;
 };
 
 /// Contact record of a pair: its key (kernels/dem/pairs/pairs.hpp), in which walls are numbered after the bodies. A

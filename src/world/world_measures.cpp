@@ -59,6 +59,7 @@ void add_masses(const std::vector<Vec3<double>>& place, const std::vector<double
 
 std::vector<double> body_measures(const HostBodies& bodies)
 {
+    bodies.require_rocks();
     std::vector<double> found;
     add_masses(bodies.position, bodies.mass, found);
     add_masses(bodies.position, bodies.scale, found);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kernels/dem/sleep/sleeping_bodies.hpp"
+#include "kernels/mpm/pages/page_key.hpp"
 #include "solver/sand/page_rest.hpp"
 
 namespace tread::solver

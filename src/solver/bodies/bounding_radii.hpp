@@ -10,6 +10,7 @@ namespace tread::solver
 /// Computes the radius (m) of every body's bounding sphere about its centre of mass.
 inline std::vector<double> bounding_radii(const world::World& world)
 {
+    world.bodies.require_rocks();
     std::vector<double> radii;
     radii.reserve(world.bodies.size());
     for (std::size_t b = 0; b < world.bodies.size(); ++b)

@@ -63,6 +63,7 @@ decomp::PageLattice page_lattice_of(const world::World& world)
 
 WorldPages pages_of(const world::World& world)
 {
+    world.bodies.require_rocks();
     const mpm::Lattice lattice = mpm::make_lattice(spacing_of(world), world.geometry.stencil_shift);
     Loads              loads;
     for (const world::PointRow& row : world.sand.rows)

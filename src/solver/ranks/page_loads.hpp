@@ -30,8 +30,7 @@ struct WorldPages
     std::vector<std::uint64_t> with_sand; ///< those that hold points, ascending
 };
 
-/// Finds the pages of a world that has its rocks still (world::release_rocks). Without points pages are four bodies
-/// wide.
+/// Finds the pages of a world that has its rocks still. Without points pages are four bodies wide.
 WorldPages pages_of(const world::World& world);
 
 /// Collective: assigns every page of a world to a rank. Returns a description for the log.

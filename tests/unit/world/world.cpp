@@ -97,8 +97,10 @@ TEST(World, RocksThatAreReleasedStillCount)
     World             world = build_world(load_text(test::sand_text + test::rocks_text));
     const std::size_t count = world.bodies.size();
     ASSERT_GT(count, static_cast<std::size_t>(world.bodies.named));
+    EXPECT_NO_THROW(world.bodies.require_rocks());
     release_rocks(world);
     release_rocks(world);
+    EXPECT_THROW(world.bodies.require_rocks(), std::logic_error);
     EXPECT_EQ(world.bodies.size(), count);
     EXPECT_EQ(world.bodies.position.capacity(), static_cast<std::size_t>(world.bodies.named));
     EXPECT_EQ(world.bodies.material.capacity(), static_cast<std::size_t>(world.bodies.named));
