@@ -15,28 +15,44 @@ from tread_post.run import Run
 
 CENTRE = np.array([1.8, 1.8])  # m, of the column
 EARLY = 0.1  # s: before chaos has grown
+ENERGIES = (("kinetic_bodies", 0.4), ("kinetic_bodies", 0.7), ("gravity", 0.7), ("friction", 0.7))  # columns and times, s
+HEADINGS = (
+    "run",
+    "ranks",
+    "steps",
+    f"kinetic energy at {EARLY} s: part of it off",
+    *(f"{name} at {time} s (J)" for name, time in ENERGIES),
+    "mean height (m)",
+    "height that 1 % exceed",
+    "distance of 50 % from the axis",
+    "90 %",
+    "99 %",
+    "error of energy",
+    "error of momentum",
+)
+
+
+def energies_of(run, first):
+    energy, other = run.energy, first.energy
+    row = np.searchsorted(energy["time"], EARLY)
+    off = abs(energy["kinetic_bodies"][row] / other["kinetic_bodies"][row] - 1)
+    return [off, *(np.interp(time, energy["time"], energy[name]) for name, time in ENERGIES)]
 
 
 def heap_of(run):
-    """Heights and distances from the column's centre, m, at the end; masses are equal but for the last bits."""
+    """At the end; masses are equal but for the last bits."""
     place = run.bodies(run.snapshots[-1]).position
-    return place[:, 2], np.linalg.norm(place[:, :2] - CENTRE, axis=1)
-
-
-def row_of(run, first):
-    height, distance = heap_of(run)
-    energy, start = run.energy, first.energy
-    early = np.searchsorted(energy["time"], EARLY)
-    kinetic = abs(energy["kinetic_bodies"][early] / start["kinetic_bodies"][early] - 1)
-    quantiles = [np.quantile(distance, share) for share in (0.5, 0.9, 0.99)]
-    return [run.summary["ranks"], run.summary["steps"], kinetic, height.mean(), np.quantile(height, 0.99), *quantiles, run.summary["errors"]["energy"], run.summary["errors"]["momentum"]]
+    distance = np.linalg.norm(place[:, :2] - CENTRE, axis=1)
+    return [place[:, 2].mean(), np.quantile(place[:, 2], 0.99), *np.quantile(distance, (0.5, 0.9, 0.99))]
 
 
 def main():
     runs = [Run(path) for path in sys.argv[1:]]
-    print("run, ranks, steps, kinetic energy at 0.1 s: part of it off, mean height, height of 99 %, distance of 50, 90, 99 % (m), errors of energy and momentum")
+    print(", ".join(HEADINGS))
     for run in runs:
-        print(run.path.name, *(f"{value:.5g}" for value in row_of(run, runs[0])), sep=", ")
+        summary = run.summary
+        values = [summary["ranks"], summary["steps"], *energies_of(run, runs[0]), *heap_of(run), summary["errors"]["energy"], summary["errors"]["momentum"]]
+        print(run.path.name, *(f"{value:.5g}" for value in values), sep=", ")
 
 
 if __name__ == "__main__":
