@@ -8,7 +8,6 @@
 namespace tread::mpm
 {
 
-constexpr int point_nodes = 27;
 constexpr int layer_cells = page_edge * page_edge;
 
 template<class Real>
@@ -58,96 +57,152 @@ __host__ __device__ constexpr int batch()
     return size;
 }
 
-/// One lane of a warp: of every point's 27 nodes it handles one, (column, row, layer). Along x, its column is the one
-/// of the point's three nodes whose coordinate is `column` modulo 3, so that from one cell to the next two thirds of
-/// the lanes keep their node, and with it the sums in their registers.
+/// One lane of a warp. Nine lanes share a point: each handles the three nodes along x of one row of the stencil, (row,
+/// layer), and reads what the point brings once for all three. The three groups of nine lanes take the points of a cell
+/// in turn. Sums stay in registers: from one cell to the next along x they move by one node, and the node that is left
+/// is added to the warp's tile, summed over the groups from low to high.
 template<class Real, class Brings>
-class NodeLane
+class NodeRow
 {
 public:
-    __device__ NodeLane(int lane, WarpTile<Real>& tile)
+    __device__ NodeRow(int lane, WarpTile<Real>& tile)
         : tile_(tile)
-        , working_(lane < point_nodes)
-        , column_(lane % 3)
-        , row_(lane / 3 % 3)
-        , layer_(working_ ? lane / 9 : 0)
+        , group_(lane < groups * group_lanes ? lane / group_lanes : warp_size)
+        , row_(lane % 3)
+        , layer_(lane / 3 % 3)
     {
     }
 
-    /// Moves to the stencil of a cell of the layer, 0..15. All lanes take part.
+    /// Moves to the stencil of a cell of the layer, 0..15, not before the present one. All lanes take part.
     __device__ void go_to(int cell)
     {
         const int x = cell % page_edge, y = cell / page_edge;
-        offset_         = column_ >= x ? column_ - x : column_ - x + 3;
-        const int  node = x + offset_ + tile_edge * (y + row_ + tile_edge * layer_);
-        const bool left = working_ && node != node_;
-        if (left) { store(); }
-        __syncwarp();
-        if (left)
-        {
-            moving_ = tile_.moving[node];
-            force_  = tile_.force[node];
-            node_   = node;
-        }
+        leave(y == y_ ? x - x_ : 3);
+        x_ = x;
+        y_ = y;
     }
+
+    /// Adds points `first` to `end` of those brought, which are all of the present cell.
+    template<int quads>
+    __device__ void add(const Quad<Real> (*brought)[quads], int first, int end)
+    {
+        for (int point = first + group_; point < end; point += groups) { add(brought[point]); }
+    }
+
+    /// Adds what the registers still hold to the tile. All lanes take part.
+    __device__ void finish() { leave(3); }
+
+private:
+    static constexpr int group_lanes = 9, groups = 3;
+
+    /// Sums of one node: mass and momentum, then force.
+    struct Sums
+    {
+        Quad<Real> moving;
+        Real       force[3];
+    };
+
+    __device__ static Pair<Real> pair(const Real* at) { return *reinterpret_cast<const Pair<Real>*>(at); }
 
     __device__ void add(const Quad<Real>* brought)
     {
-        const Real*      point      = &brought->at[0];
-        const Quad<Real> mass       = brought[0];
-        const Quad<Real> normal     = brought[1];                       // xx yy zz yz
-        const Pair<Real> shear      = pair(point + brought_stress + 4); // xz xy
-        const Pair<Real> x          = pair(point + brought_splines + 2 * offset_);
-        const Pair<Real> y          = pair(point + brought_splines + 6 + 2 * row_);
-        const Pair<Real> z          = pair(point + brought_splines + 12 + 2 * layer_);
-        const Real       yz         = y.at[0] * z.at[0];
-        const Real       weight     = x.at[0] * yz;
-        const Real       slope[]    = {x.at[1] * yz, y.at[1] * (x.at[0] * z.at[0]), z.at[1] * (x.at[0] * y.at[0])};
-        Real             momentum[] = {mass.at[1], mass.at[2], mass.at[3]};
-        if constexpr (Brings::affine) { turn(point, momentum); }
-        moving_.at[0] += weight * mass.at[0];
-        for (int i = 0; i < 3; ++i) { moving_.at[1 + i] += weight * momentum[i]; }
-        const Real stress[3][3] = {{normal.at[0], shear.at[1], shear.at[0]},
-                                   {shear.at[1], normal.at[1], normal.at[3]},
-                                   {shear.at[0], normal.at[3], normal.at[2]}};
+        const Real*      point  = &brought->at[0];
+        const Quad<Real> normal = brought[1];                       // xx yy zz yz
+        const Pair<Real> shear  = pair(point + brought_stress + 4); // xz xy
+        const Pair<Real> y      = pair(point + brought_splines + 6 + 2 * row_);
+        const Pair<Real> z      = pair(point + brought_splines + 12 + 2 * layer_);
+        const Real       plane = y.at[0] * z.at[0], by_y = y.at[1] * z.at[0], by_z = y.at[0] * z.at[1];
+        const Real       stress[3][3] = {{normal.at[0], shear.at[1], shear.at[0]},
+                                         {shear.at[1], normal.at[1], normal.at[3]},
+                                         {shear.at[0], normal.at[3], normal.at[2]}};
+        Quad<Real>       moving       = brought[0];
+        Real             turn[3] = {}, along[3], across[3];
+        if constexpr (Brings::affine) { moving = turned(point, moving, turn); }
+        for (Real& value : moving.at) { value *= plane; }
         for (int i = 0; i < 3; ++i)
         {
-            for (int j = 0; j < 3; ++j) { force_.at[i] += slope[j] * stress[i][j]; }
-            if constexpr (Brings::force) { force_.at[i] += weight * point[brought_force + i]; }
+            turn[i] *= plane;
+            along[i]  = plane * stress[i][0];
+            across[i] = by_y * stress[i][1] + by_z * stress[i][2];
+            if constexpr (Brings::force) { across[i] += plane * point[brought_force + i]; }
+        }
+#pragma unroll
+        for (int n = 0; n < 3; ++n)
+        {
+            const Pair<Real> x   = pair(point + brought_splines + 2 * n);
+            Sums&            sum = sums_[n];
+            sum.moving.at[0] += x.at[0] * moving.at[0];
+            for (int i = 0; i < 3; ++i)
+            {
+                sum.moving.at[1 + i] += x.at[0] * (moving.at[1 + i] + Real(n) * turn[i]);
+                sum.force[i] += x.at[1] * along[i] + x.at[0] * across[i];
+            }
         }
     }
 
-    __device__ void store()
+    /// Returns mass and momentum of the affine velocity at the row's first node, which is (0, row, layer) above the
+    /// stencil's lowest, and writes by how much the momentum differs from one node of the row to the next.
+    __device__ Quad<Real> turned(const Real* point, Quad<Real> moving, Real* step) const
     {
-        if (node_ < 0) { return; }
-        tile_.moving[node_] = moving_;
-        tile_.force[node_]  = force_;
-    }
-
-private:
-    __device__ static Pair<Real> pair(const Real* at) { return *reinterpret_cast<const Pair<Real>*>(at); }
-
-    /// Adds the momentum of the affine velocity at the lane's node, which is (offset, row, layer) above the lowest.
-    __device__ void turn(const Real* point, Real* momentum) const
-    {
-        const Real       x = Real(offset_), y = Real(row_), z = Real(layer_);
+        const Real       y = Real(row_), z = Real(layer_);
         const auto*      quad = reinterpret_cast<const Quad<Real>*>(point + brought_affine);
         const Quad<Real> low = quad[0], high = quad[1];
-        const Real       last = point[brought_affine + 8];
-        momentum[0] += x * low.at[0] + y * low.at[3] + z * high.at[2];
-        momentum[1] += x * low.at[1] + y * high.at[0] + z * high.at[3];
-        momentum[2] += x * low.at[2] + y * high.at[1] + z * last;
+        moving.at[1] += y * low.at[3] + z * high.at[2];
+        moving.at[2] += y * high.at[0] + z * high.at[3];
+        moving.at[3] += y * high.at[1] + z * point[brought_affine + 8];
+        for (int i = 0; i < 3; ++i) { step[i] = low.at[i]; }
+        return moving;
+    }
+
+    /// Adds the row's first `nodes` nodes to the tile, and moves the sums of the others down.
+    __device__ void leave(int nodes)
+    {
+        for (int x = x_; x < x_ + min(nodes, 3); ++x)
+        {
+            store(x);
+            sums_[0] = sums_[1];
+            sums_[1] = sums_[2];
+            sums_[2] = {};
+        }
+    }
+
+    /// Adds the row's first node, at column x, to the tile.
+    __device__ void store(int x)
+    {
+        Sums sum = sums_[0];
+        for (Real& value : sum.moving.at) { value = over_groups(value); }
+        for (Real& value : sum.force) { value = over_groups(value); }
+        __syncwarp(); // the last node of a row may be another lane's now
+        if (group_ != 0) { return; }
+        const int   node   = x + tile_edge * (y_ + row_ + tile_edge * layer_);
+        Quad<Real>& moving = tile_.moving[node];
+        Quad<Real>& force  = tile_.force[node];
+        moving             = added(moving, &sum.moving.at[0], 4);
+        force              = added(force, sum.force, 3);
+    }
+
+    __device__ static Quad<Real> added(Quad<Real> to, const Real* values, int channels)
+    {
+        for (int c = 0; c < channels; ++c) { to.at[c] += values[c]; }
+        return to;
+    }
+
+    /// The first group's lanes get the sum over groups.
+    __device__ static Real over_groups(Real value)
+    {
+        const Real second = __shfl_down_sync(all_lanes, value, group_lanes);
+        const Real third  = __shfl_down_sync(all_lanes, value, 2 * group_lanes);
+        return value + second + third;
     }
 
     WarpTile<Real>& tile_;
-    bool            working_;
-    int             column_, row_, layer_;
-    int             offset_ = 0, node_ = -1;
-    Quad<Real>      moving_{}, force_{};
+    int             group_, row_, layer_;
+    int             x_ = 0, y_ = 0;
+    Sums            sums_[3]{};
 };
 
 /// Scatters one page per block. Each warp takes the points of its layer of cells in the order of the list, in batches:
-/// a lane loads a point into shared memory, then all lanes add every point, each to its own node. The additions have a
+/// a lane loads a point into shared memory, then nine lanes add it, each to its own row of nodes. The additions have a
 /// fixed order and no atomics.
 template<class Real, class Brings>
 struct ScatterPage
@@ -183,7 +238,7 @@ struct ScatterPage
 
     __device__ void add_points(std::int64_t page, int warp, int lane, Tile& tile, Quad<Real> (*staged)[quads]) const
     {
-        NodeLane<Real, Brings> node(lane, tile);
+        NodeRow<Real, Brings> nodes(lane, tile);
 
         const Index3        low   = page_coordinates(pages.point_page_key[page]);
         const std::int32_t* range = pages.cell_first_point + page * page_cells + warp * layer_cells;
@@ -206,15 +261,16 @@ struct ScatterPage
             {
                 if ((heads >> at & 1u) != 0)
                 {
-                    node.go_to(__shfl_sync(all_lanes, place, at) - warp * layer_cells);
+                    nodes.go_to(__shfl_sync(all_lanes, place, at) - warp * layer_cells);
                     heads &= heads - 1;
                 }
                 const int stop = heads != 0 ? __ffs(static_cast<int>(heads)) - 1 : count;
-                for (; at < stop; ++at) { node.add(staged[at]); }
+                nodes.add(staged, at, stop);
+                at = stop;
             }
             __syncwarp();
         }
-        node.store();
+        nodes.finish();
     }
 
     __device__ void stage(std::int64_t i, Index3 cell, Real* brought) const
