@@ -116,7 +116,7 @@ private:
                                          {shear.at[1], normal.at[1], normal.at[3]},
                                          {shear.at[0], normal.at[3], normal.at[2]}};
         Quad<Real>       moving       = brought[0];
-        Real             turn[3] = {}, along[3], across[3];
+        Real             turn[3]      = {}, along[3], across[3];
         if constexpr (Brings::affine) { moving = turned(point, moving, turn); }
         for (Real& value : moving.at) { value *= plane; }
         for (int i = 0; i < 3; ++i)
