@@ -12,10 +12,6 @@ namespace
 /// Mean number of points per page below which pages count as sparse.
 constexpr std::int64_t full_page = 128;
 
-/// Number of blocks of a multiprocessor that leaves a full page's sums in registers (of 65536).
-template<class Real>
-constexpr int scatter_blocks = sizeof(Real) == 4 ? 7 : 4;
-
 } // namespace
 
 template<class Exec, class Real>
@@ -31,8 +27,9 @@ void scatter(const Exec& gpu, const PointsView<Real>& points, const PagesView& p
         }
         else
         {
-            for_each_block<scatter_threads, scatter_blocks<Real>>(
-                gpu, "scatter", list.count, ScatterPage<Real, Brings>{points, pages, list, tiles});
+            using FullPage = ScatterPage<Real, Brings>;
+            for_each_block<scatter_threads, FullPage::blocks>(gpu, "scatter", list.count,
+                                                              FullPage{points, pages, list, tiles});
         }
     };
     const auto with_force = [&](auto force)

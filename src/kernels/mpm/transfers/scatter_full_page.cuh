@@ -39,12 +39,12 @@ constexpr int scatter_warps   = page_edge;
 constexpr int scatter_threads = scatter_warps * warp_size;
 constexpr int warp_nodes      = 3 * layer_nodes;
 
-/// Nodes in the stencils of a warp's cells: mass and momentum, then force.
+/// Nodes in the stencils of a warp's cells. The odd pitch keeps the channels that lanes add at the same time in
+/// different banks.
 template<class Real>
 struct WarpTile
 {
-    Quad<Real> moving[warp_nodes];
-    Quad<Real> force[warp_nodes];
+    Real channel[node_channels][warp_nodes + 1];
 };
 
 /// Number of points loaded at a time: as many as fit into 48 KiB of shared memory besides the tiles of four warps.
@@ -60,7 +60,7 @@ __host__ __device__ constexpr int batch()
 /// One lane of a warp. Nine lanes share a point: each handles the three nodes along x of one row of the stencil, (row,
 /// layer), and reads what the point brings once for all three. The three groups of nine lanes take the points of a cell
 /// in turn. Sums stay in registers: from one cell to the next along x they move by one node, and the node that is left
-/// is added to the warp's tile, summed over the groups from low to high.
+/// is added to the warp's tile, each group the sums of three channels.
 template<class Real, class Brings>
 class NodeRow
 {
@@ -93,14 +93,10 @@ public:
     __device__ void finish() { leave(3); }
 
 private:
-    static constexpr int group_lanes = 9, groups = 3;
+    static constexpr int group_lanes = 9, groups = 3, group_channels = 3;
 
-    /// Sums of one node: mass and momentum, then force.
-    struct Sums
-    {
-        Quad<Real> moving;
-        Real       force[3];
-    };
+    /// Of one node: mass and momentum, then force.
+    using Sums = Real[node_channels];
 
     __device__ static Pair<Real> pair(const Real* at) { return *reinterpret_cast<const Pair<Real>*>(at); }
 
@@ -131,11 +127,11 @@ private:
         {
             const Pair<Real> x   = pair(point + brought_splines + 2 * n);
             Sums&            sum = sums_[n];
-            sum.moving.at[0] += x.at[0] * moving.at[0];
+            sum[0] += x.at[0] * moving.at[0];
             for (int i = 0; i < 3; ++i)
             {
-                sum.moving.at[1 + i] += x.at[0] * (moving.at[1 + i] + Real(n) * turn[i]);
-                sum.force[i] += x.at[1] * along[i] + x.at[0] * across[i];
+                sum[1 + i] += x.at[0] * (moving.at[1 + i] + Real(n) * turn[i]);
+                sum[4 + i] += x.at[1] * along[i] + x.at[0] * across[i];
             }
         }
     }
@@ -160,39 +156,50 @@ private:
         for (int x = x_; x < x_ + min(nodes, 3); ++x)
         {
             store(x);
-            sums_[0] = sums_[1];
-            sums_[1] = sums_[2];
-            sums_[2] = {};
+#pragma unroll
+            for (int c = 0; c < node_channels; ++c)
+            {
+                sums_[0][c] = sums_[1][c];
+                sums_[1][c] = sums_[2][c];
+                sums_[2][c] = 0;
+            }
         }
     }
 
     /// Adds the row's first node, at column x, to the tile.
     __device__ void store(int x)
     {
-        Sums sum = sums_[0];
-        for (Real& value : sum.moving.at) { value = over_groups(value); }
-        for (Real& value : sum.force) { value = over_groups(value); }
-        __syncwarp(); // the last node of a row may be another lane's now
-        if (group_ != 0) { return; }
-        const int   node   = x + tile_edge * (y_ + row_ + tile_edge * layer_);
-        Quad<Real>& moving = tile_.moving[node];
-        Quad<Real>& force  = tile_.force[node];
-        moving             = added(moving, &sum.moving.at[0], 4);
-        force              = added(force, sum.force, 3);
+        Real sum[group_channels];
+#pragma unroll
+        for (int c = 0; c < group_channels; ++c) { sum[c] = over_groups(c); }
+        __syncwarp(); // other lanes may have added to the node, as another row of an earlier cell
+        const int node = x + tile_edge * (y_ + row_ + tile_edge * layer_);
+#pragma unroll
+        for (int c = 0; c < group_channels; ++c)
+        {
+            const int channel = group_channels * group_ + c;
+            if (channel < node_channels) { tile_.channel[channel][node] += sum[c]; }
+        }
     }
 
-    __device__ static Quad<Real> added(Quad<Real> to, const Real* values, int channels)
+    /// Returns the sum over all groups of the group's channel `c`, 0..2, of the first node.
+    __device__ Real over_groups(int c) const
     {
-        for (int c = 0; c < channels; ++c) { to.at[c] += values[c]; }
-        return to;
+        Real sum = first_node(group_, c);
+#pragma unroll
+        for (int k = 1; k < groups; ++k)
+        {
+            const int asks = (group_ + groups - k) % groups, asked = (group_ + k) % groups;
+            sum += __shfl_sync(all_lanes, first_node(asks, c), asked * group_lanes + 3 * layer_ + row_);
+        }
+        return sum;
     }
 
-    /// The first group's lanes get the sum over groups.
-    __device__ static Real over_groups(Real value)
+    /// Returns channel `c` of those of a group, 0 where it has none, without an index into registers.
+    __device__ Real first_node(int group, int c) const
     {
-        const Real second = __shfl_down_sync(all_lanes, value, group_lanes);
-        const Real third  = __shfl_down_sync(all_lanes, value, 2 * group_lanes);
-        return value + second + third;
+        const Real last = 2 * group_channels + c < node_channels ? sums_[0][2 * group_channels + c] : Real(0);
+        return group == 0 ? sums_[0][c] : group == 1 ? sums_[0][group_channels + c] : last;
     }
 
     WarpTile<Real>& tile_;
@@ -209,6 +216,7 @@ struct ScatterPage
 {
     static constexpr int points_a_batch = batch<Real, Brings>();
     static constexpr int quads          = brought_width<Brings> / 4;
+    static constexpr int blocks         = sizeof(Real) == 4 ? 7 : 4; ///< a multiprocessor; leaves sums in registers
 
     using Tile = WarpTile<Real>;
 
@@ -225,11 +233,8 @@ struct ScatterPage
         __shared__ Quad<Real> staged[scatter_warps][points_a_batch][quads];
         const int             warp = static_cast<int>(threadIdx.x) / warp_size;
         const int             lane = static_cast<int>(threadIdx.x) % warp_size;
-        for (int node = lane; node < warp_nodes; node += warp_size)
-        {
-            tile[warp].moving[node] = {};
-            tile[warp].force[node]  = {};
-        }
+        Real* zeros = &tile[warp].channel[0][0];
+        for (int n = lane; n < static_cast<int>(sizeof(Tile) / sizeof(Real)); n += warp_size) { zeros[n] = 0; }
         __syncwarp();
         add_points(page, warp, lane, tile[warp], staged[warp]);
         __syncthreads();
@@ -312,44 +317,30 @@ struct ScatterPage
         }
     }
 
-    /// Writes the tile: a thread sums a column of nodes over the contributing warps, from low to high: mass and
-    /// momentum, or force.
+    /// Writes the tile: a thread sums a column of nodes over the contributing warps, from low to high, channel by
+    /// channel.
     __device__ static void write(const Tile* tile, Real* out)
     {
-        for (int item = threadIdx.x; item < 2 * layer_nodes; item += scatter_threads)
+        for (int item = threadIdx.x; item < node_channels * layer_nodes; item += scatter_threads)
         {
-            const int column = item % layer_nodes, x = column % tile_edge, y = column / tile_edge;
-            if (item < layer_nodes)
-            {
-                write_column<0, 4>(column, x, y, out, [&](int w, int n) { return tile[w].moving[n]; });
-            }
-            else
-            {
-                write_column<4, 3>(column, x, y, out, [&](int w, int n) { return tile[w].force[n]; });
-            }
-        }
-    }
-
-    template<int first, int channels, class Value>
-    __device__ static void write_column(int column, int x, int y, Real* out, Value value)
-    {
-        const TileSlot low = tile_slot(x, y, 0), high = tile_slot(x, y, page_edge);
-        const int      step = tile_slot(x, y, 1).first - low.first;
+            const int      channel = item / layer_nodes, column = item % layer_nodes;
+            const int      x = column % tile_edge, y = column / tile_edge;
+            const TileSlot low = tile_slot(x, y, 0), high = tile_slot(x, y, page_edge);
+            const int      step = tile_slot(x, y, 1).first - low.first;
 #pragma unroll
-        for (int z = 0; z < tile_edge; ++z)
-        {
-            Quad<Real> sum{};
-#pragma unroll
-            for (int warp = 0; warp < scatter_warps; ++warp)
+            for (int z = 0; z < tile_edge; ++z)
             {
-                const int above = z - warp;
-                if (above < 0 || above > 2) { continue; }
-                const Quad<Real> part = value(warp, column + above * layer_nodes);
-                for (int c = 0; c < channels; ++c) { sum.at[c] += part.at[c]; }
+                Real sum = 0;
+#pragma unroll
+                for (int warp = 0; warp < scatter_warps; ++warp)
+                {
+                    const int above = z - warp;
+                    if (above < 0 || above > 2) { continue; }
+                    sum += tile[warp].channel[channel][column + above * layer_nodes];
+                }
+                const TileSlot slot = z < page_edge ? low : high;
+                out[slot.first + z % page_edge * step + channel * slot.stride] = sum;
             }
-            const TileSlot slot = z < page_edge ? low : high;
-            Real*          to   = out + slot.first + z % page_edge * step + first * slot.stride;
-            for (int c = 0; c < channels; ++c) { to[c * slot.stride] = sum.at[c]; }
         }
     }
 };
