@@ -103,6 +103,7 @@ private:
     __device__ void add(const Quad<Real>* brought)
     {
         const Real*      point  = &brought->at[0];
+        const Quad<Real> mass   = brought[0];
         const Quad<Real> normal = brought[1];                       // xx yy zz yz
         const Pair<Real> shear  = pair(point + brought_stress + 4); // xz xy
         const Pair<Real> y      = pair(point + brought_splines + 6 + 2 * row_);
@@ -111,43 +112,41 @@ private:
         const Real       stress[3][3] = {{normal.at[0], shear.at[1], shear.at[0]},
                                          {shear.at[1], normal.at[1], normal.at[3]},
                                          {shear.at[0], normal.at[3], normal.at[2]}};
-        Quad<Real>       moving       = brought[0];
-        Real             turn[3]      = {}, along[3], across[3];
-        if constexpr (Brings::affine) { moving = turned(point, moving, turn); }
-        for (Real& value : moving.at) { value *= plane; }
+        Real             momentum[]   = {mass.at[1], mass.at[2], mass.at[3]}, turn[3], along[3], across[3];
+        if constexpr (Brings::affine) { turned(point, momentum, turn); }
         for (int i = 0; i < 3; ++i)
         {
-            turn[i] *= plane;
             along[i]  = plane * stress[i][0];
-            across[i] = by_y * stress[i][1] + by_z * stress[i][2];
-            if constexpr (Brings::force) { across[i] += plane * point[brought_force + i]; }
+            across[i] = std::fma(by_y, stress[i][1], by_z * stress[i][2]);
+            if constexpr (Brings::force) { across[i] = std::fma(plane, point[brought_force + i], across[i]); }
         }
 #pragma unroll
         for (int n = 0; n < 3; ++n)
         {
-            const Pair<Real> x   = pair(point + brought_splines + 2 * n);
-            Sums&            sum = sums_[n];
-            sum[0] += x.at[0] * moving.at[0];
+            const Pair<Real> x      = pair(point + brought_splines + 2 * n);
+            const Real       weight = x.at[0] * plane;
+            Sums&            sum    = sums_[n];
+            sum[0]                  = std::fma(weight, mass.at[0], sum[0]);
             for (int i = 0; i < 3; ++i)
             {
-                sum[1 + i] += x.at[0] * (moving.at[1 + i] + Real(n) * turn[i]);
-                sum[4 + i] += x.at[1] * along[i] + x.at[0] * across[i];
+                sum[1 + i] = std::fma(weight, momentum[i], sum[1 + i]);
+                sum[4 + i] = std::fma(x.at[1], along[i], std::fma(x.at[0], across[i], sum[4 + i]));
+                if constexpr (Brings::affine) { momentum[i] += turn[i]; }
             }
         }
     }
 
-    /// Returns mass and momentum of the affine velocity at the row's first node, which is (0, row, layer) above the
-    /// stencil's lowest, and writes by how much the momentum differs from one node of the row to the next.
-    __device__ Quad<Real> turned(const Real* point, Quad<Real> moving, Real* step) const
+    /// Makes the momentum that of the affine velocity at the row's first node, which is (0, row, layer) above the
+    /// stencil's lowest, and writes by how much it differs from one node of the row to the next.
+    __device__ void turned(const Real* point, Real* momentum, Real* step) const
     {
         const Real       y = Real(row_), z = Real(layer_);
         const auto*      quad = reinterpret_cast<const Quad<Real>*>(point + brought_affine);
         const Quad<Real> low = quad[0], high = quad[1];
-        moving.at[1] += y * low.at[3] + z * high.at[2];
-        moving.at[2] += y * high.at[0] + z * high.at[3];
-        moving.at[3] += y * high.at[1] + z * point[brought_affine + 8];
+        momentum[0] = std::fma(y, low.at[3], std::fma(z, high.at[2], momentum[0]));
+        momentum[1] = std::fma(y, high.at[0], std::fma(z, high.at[3], momentum[1]));
+        momentum[2] = std::fma(y, high.at[1], std::fma(z, point[brought_affine + 8], momentum[2]));
         for (int i = 0; i < 3; ++i) { step[i] = low.at[i]; }
-        return moving;
     }
 
     /// Adds the row's first `nodes` nodes to the tile, and moves the sums of the others down.
