@@ -55,7 +55,9 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         const auto*        lowest  = tile + tile_base(stencil.base);
         const auto         nodes   = [=](int a, int b, int c) -> const NodeMotion<Quad<Real>>&
         { return lowest[tile_offset(a, b, c)]; };
-        const auto seen = see(stencil, spacing, nodes, Moment{});
+        const auto sum = sum_motion(stencil, nodes, Moment{});
+        Seen<Real> seen{};
+        for (int i = 0; i < 3; ++i) { set_seen(seen, i, sum, i, stencil, spacing, Moment{}); }
         const Move move = update_point(points, i, point, seen, stencil.base, pages, page, step, sums, peaks);
         moves.to[at]    = packed(move);
         count[move.direction] += move.direction != own_page;

@@ -17,8 +17,8 @@ namespace
 {
 
 /// Number of threads per multiprocessor, which limits the registers: with more threads the kernel spills.
-template<class Moment>
-constexpr int threads_an_sm = std::is_same_v<Moment, WithMoment> ? 384 : 512;
+template<class Real>
+constexpr int threads_an_sm = sizeof(Real) == 4 ? 512 : 384;
 
 /// Number of pages below which multiprocessors are idle unless each page has many threads.
 constexpr std::int64_t few_pages = 1024;
@@ -27,7 +27,7 @@ constexpr std::int64_t few_pages = 1024;
 constexpr std::int64_t gather_full_page = 128;
 
 /// Layout of tile node (x, y, z) in shared memory: with this pitch, the 16 cells of a layer, each reading the same node
-/// of its stencil with two channels, access all banks without conflicts.
+/// of its stencil, access different banks.
 constexpr int gather_row  = 40;
 constexpr int gather_size = gather_row * tile_edge * tile_edge;
 
@@ -88,19 +88,32 @@ __device__ void load_tile(const Real* motion, const std::int32_t* node_page, Rea
         });
 }
 
-/// Reads the motion of a stencil's nodes from shared memory.
+/// Reads one component of the motion of a stencil's nodes from shared memory.
 template<class Real>
-struct NodesOfTile
+struct ComponentOfTile
 {
     const Real* lowest;
+    int         component;
 
-    __device__ NodeMotion<std::array<Real, 3>> operator()(int a, int b, int c) const
+    __device__ NodeMotion<std::array<Real, 1>> operator()(int a, int b, int c) const
     {
-        const auto*             node = reinterpret_cast<const TwoChannels<Real>*>(lowest + gather_slot(a, b, c));
-        const TwoChannels<Real> low = node[0], middle = node[1], high = node[2];
-        return {{{low.at[0], low.at[1], middle.at[0]}}, {{middle.at[1], high.at[0], high.at[1]}}};
+        const Real* node = lowest + gather_slot(a, b, c);
+        return {{{node[component]}}, {{node[3 + component]}}};
     }
 };
+
+/// Interpolates the motion component by component, so that the sums of one at a time are in registers.
+template<class Real, class Moment>
+__device__ Seen<Real> see(const Stencil<Real>& s, Real spacing, const Real* lowest, Moment)
+{
+    Seen<Real> seen{};
+#pragma unroll
+    for (int i = 0; i < 3; ++i)
+    {
+        set_seen(seen, i, sum_motion(s, ComponentOfTile<Real>{lowest, i}, Moment{}), 0, s, spacing, Moment{});
+    }
+    return seen;
+}
 
 /// Prefetch buffer in shared memory: the data of the next point are copied from device memory while the present point
 /// is updated. A thread uses only its own column.
@@ -224,8 +237,8 @@ struct GatherPage
             later                           = listed(at + 2 * threads, end);
             const Index3            cell    = node_at(low, now.place);
             const auto              stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages);
-            const NodesOfTile<Real> nodes{tile + gather_slot(cell.x & 3, cell.y & 3, cell.z & 3)};
-            const auto              seen = see(stencil, spacing, nodes, Moment{});
+            const Real* lowest = tile + gather_slot(cell.x & 3, cell.y & 3, cell.z & 3);
+            const auto  seen   = see(stencil, spacing, lowest, Moment{});
             const Move move = update_point(points, now.point, point, seen, stencil.base, pages, page, step, sum, peak);
             moves.to[at]    = packed(move);
             if (move.cell_change != CellChange::none) { count_move(move, count); }
@@ -280,7 +293,7 @@ void gather(const Exec& gpu, const PointsView<Real>& points, const PagesView& pa
 {
     const auto launch = [&](auto threads, auto moment)
     {
-        for_each_block<threads, std::max(1, threads_an_sm<decltype(moment)> / threads)>(
+        for_each_block<threads, std::max(1, threads_an_sm<Real> / threads)>(
             gpu, "gather", list.count,
             GatherPage<threads, Real, decltype(moment)>{points, pages, list, motion, step, moves, tallies, peaks});
     };

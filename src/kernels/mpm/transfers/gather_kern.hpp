@@ -66,7 +66,7 @@ struct NodeMotion
     Numbers velocity, change;
 };
 
-/// Partial sums of the motion over rows and layers of nodes, and of the velocity times slopes and offsets.
+/// Partial sums of the motion over rows and layers of nodes, and of the velocity times slopes and node numbers 0..2.
 template<class Numbers>
 struct Partial
 {
@@ -103,7 +103,7 @@ TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
                 add_scaled(weight, motion.velocity, row.velocity);
                 add_scaled(s.slope[0][a], motion.velocity, row.by_x);
                 add_scaled(weight, motion.change, row.change);
-                if (moment) { add_scaled((Real(a) - s.fraction[0]) * weight, motion.velocity, row.at_x); }
+                if (moment && a > 0) { add_scaled(Real(a) * weight, motion.velocity, row.at_x); }
             }
             const Real weight = s.weight[1][b];
             add_scaled(weight, row.velocity, layer.velocity);
@@ -113,7 +113,7 @@ TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
             if (moment)
             {
                 add_scaled(weight, row.at_x, layer.at_x);
-                add_scaled((Real(b) - s.fraction[1]) * weight, row.velocity, layer.at_y);
+                if (b > 0) { add_scaled(Real(b) * weight, row.velocity, layer.at_y); }
             }
         }
         const Real weight = s.weight[2][c];
@@ -126,29 +126,26 @@ TREAD_HD auto sum_motion(const Stencil<Real>& s, Node node, Moment)
         {
             add_scaled(weight, layer.at_x, all.at_x);
             add_scaled(weight, layer.at_y, all.at_y);
-            add_scaled((Real(c) - s.fraction[2]) * weight, layer.velocity, all.at_z);
+            if (c > 0) { add_scaled(Real(c) * weight, layer.velocity, all.at_z); }
         }
     }
     return all;
 }
 
-/// Interpolates the motion; node(a, b, c) returns the NodeMotion of a node of the stencil.
-template<class Real, class Node, class Moment>
-TREAD_HD Seen<Real> see(const Stencil<Real>& s, Real spacing, Node node, Moment)
+/// Writes component `i` of the motion at a point from component `from` of the sums over its stencil.
+template<class Real, class Numbers, class Moment>
+TREAD_HD void set_seen(Seen<Real>& seen, int i, const Partial<Numbers>& sum, int from, const Stencil<Real>& s,
+                       Real spacing, Moment)
 {
-    const auto sum = sum_motion(s, node, Moment{});
-    Seen<Real> seen{};
-    for (int i = 0; i < 3; ++i)
+    seen.velocity[i] = sum.velocity[from];
+    seen.change[i]   = sum.change[from];
+    seen.gradient.row(i) << sum.by_x[from], sum.by_y[from], sum.by_z[from];
+    if constexpr (std::is_same_v<Moment, WithMoment>)
     {
-        seen.velocity[i] = sum.velocity[i];
-        seen.change[i]   = sum.change[i];
-        seen.gradient.row(i) << sum.by_x[i], sum.by_y[i], sum.by_z[i];
-        if (std::is_same_v<Moment, WithMoment>)
-        {
-            seen.moment.row(i) << spacing * sum.at_x[i], spacing * sum.at_y[i], spacing * sum.at_z[i];
-        }
+        seen.moment.row(i) << spacing * (sum.at_x[from] - s.fraction[0] * sum.velocity[from]),
+            spacing * (sum.at_y[from] - s.fraction[1] * sum.velocity[from]),
+            spacing * (sum.at_z[from] - s.fraction[2] * sum.velocity[from]);
     }
-    return seen;
 }
 
 /// Sets the affine velocity field of affine transfers (APIC, AFLIP): 4/h^2 times the moment for quadratic splines

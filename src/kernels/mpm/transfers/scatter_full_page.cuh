@@ -66,31 +66,49 @@ class NodeRow
 {
 public:
     __device__ NodeRow(int lane, WarpTile<Real>& tile)
-        : tile_(tile)
-        , group_(lane < groups * group_lanes ? lane / group_lanes : warp_size)
+        : group_(lane < groups * group_lanes ? lane / group_lanes : warp_size)
         , row_(lane % 3)
         , layer_(lane / 3 % 3)
+        , channels_(min(group_channels, node_channels - group_channels * group_))
+        , low_(&tile.channel[0][0] + (channels_ > 0 ? group_channels * group_ : 0) * (warp_nodes + 1) +
+               tile_edge * (row_ + tile_edge * layer_))
     {
+        for (int k = 1; k < groups; ++k)
+        {
+            taker_[k - 1]  = (group_ + groups - k) % groups;
+            giver_[k - 1] = (group_ + k) % groups * group_lanes + 3 * layer_ + row_;
+        }
     }
 
-    /// Moves to the stencil of a cell of the layer, 0..15, not before the present one. All lanes take part.
-    __device__ void go_to(int cell)
-    {
-        const int x = cell % page_edge, y = cell / page_edge;
-        leave(y == y_ ? x - x_ : 3);
-        x_ = x;
-        y_ = y;
-    }
-
-    /// Adds points `first` to `end` of those brought, which are all of the present cell.
+    /// Adds points `first` to `end` of those brought, which are all of one cell.
     template<int quads>
     __device__ void add(const Quad<Real> (*brought)[quads], int first, int end)
     {
         for (int point = first + group_; point < end; point += groups) { add(brought[point]); }
     }
 
-    /// Adds what the registers still hold to the tile. All lanes take part.
-    __device__ void finish() { leave(3); }
+    /// Adds the row's first node, in column x above row y of cells, to the tile, and moves the sums of the others down.
+    /// All lanes take part.
+    __device__ void leave(int x, int y)
+    {
+        Real sum[group_channels];
+#pragma unroll
+        for (int c = 0; c < group_channels; ++c) { sum[c] = over_groups(c); }
+        __syncwarp(); // other lanes may have added to the node, as another row of an earlier cell
+        Real* node = low_ + x + tile_edge * y;
+#pragma unroll
+        for (int c = 0; c < group_channels; ++c)
+        {
+            if (c < channels_) { node[c * (warp_nodes + 1)] += sum[c]; }
+        }
+#pragma unroll
+        for (int c = 0; c < node_channels; ++c)
+        {
+            sums_[0][c] = sums_[1][c];
+            sums_[1][c] = sums_[2][c];
+            sums_[2][c] = 0;
+        }
+    }
 
 private:
     static constexpr int group_lanes = 9, groups = 3, group_channels = 3;
@@ -149,47 +167,14 @@ private:
         for (int i = 0; i < 3; ++i) { step[i] = low.at[i]; }
     }
 
-    /// Adds the row's first `nodes` nodes to the tile, and moves the sums of the others down.
-    __device__ void leave(int nodes)
-    {
-        for (int x = x_; x < x_ + min(nodes, 3); ++x)
-        {
-            store(x);
-#pragma unroll
-            for (int c = 0; c < node_channels; ++c)
-            {
-                sums_[0][c] = sums_[1][c];
-                sums_[1][c] = sums_[2][c];
-                sums_[2][c] = 0;
-            }
-        }
-    }
-
-    /// Adds the row's first node, at column x, to the tile.
-    __device__ void store(int x)
-    {
-        Real sum[group_channels];
-#pragma unroll
-        for (int c = 0; c < group_channels; ++c) { sum[c] = over_groups(c); }
-        __syncwarp(); // other lanes may have added to the node, as another row of an earlier cell
-        const int node = x + tile_edge * (y_ + row_ + tile_edge * layer_);
-#pragma unroll
-        for (int c = 0; c < group_channels; ++c)
-        {
-            const int channel = group_channels * group_ + c;
-            if (channel < node_channels) { tile_.channel[channel][node] += sum[c]; }
-        }
-    }
-
     /// Returns the sum over all groups of the group's channel `c`, 0..2, of the first node.
     __device__ Real over_groups(int c) const
     {
         Real sum = first_node(group_, c);
 #pragma unroll
-        for (int k = 1; k < groups; ++k)
+        for (int k = 0; k < groups - 1; ++k)
         {
-            const int asks = (group_ + groups - k) % groups, asked = (group_ + k) % groups;
-            sum += __shfl_sync(all_lanes, first_node(asks, c), asked * group_lanes + 3 * layer_ + row_);
+            sum += __shfl_sync(all_lanes, first_node(taker_[k], c), giver_[k]);
         }
         return sum;
     }
@@ -201,10 +186,12 @@ private:
         return group == 0 ? sums_[0][c] : group == 1 ? sums_[0][group_channels + c] : last;
     }
 
-    WarpTile<Real>& tile_;
-    int             group_, row_, layer_;
-    int             x_ = 0, y_ = 0;
-    Sums            sums_[3]{};
+    int   group_, row_, layer_;
+    int   channels_; ///< number of a node's channels that the lane adds to the tile
+    Real* low_;      ///< the first of them, of the row's first node in the layer's first cell
+    int   taker_[groups - 1]; ///< groups that take the lane's sums of their channels
+    int   giver_[groups - 1]; ///< lanes whose sums of its channels it takes
+    Sums  sums_[3]{};
 };
 
 /// Scatters one page per block. Each warp takes the points of its layer of cells in the order of the list, in batches:
@@ -246,35 +233,38 @@ struct ScatterPage
 
         const Index3        low   = page_coordinates(pages.point_page_key[page]);
         const std::int32_t* range = pages.cell_first_point + page * page_cells + warp * layer_cells;
-        const std::int32_t  end   = range[layer_cells];
-        int                 last  = -1;
-        for (std::int32_t first = range[0]; first < end; first += points_a_batch)
+        const std::int32_t  first = range[min(lane, layer_cells)], all = __shfl_sync(all_lanes, first, layer_cells);
+        std::int32_t        at = __shfl_sync(all_lanes, first, 0), staged_from = at, staged_to = at;
+        int                 held = 0; // nodes of the row whose sums are not zero
+        for (int cell = 0; cell < layer_cells; ++cell)
         {
-            const int count = min(points_a_batch, end - first);
-            int       place = last;
-            if (lane < count)
+            const std::int32_t end = __shfl_sync(all_lanes, first, cell + 1);
+            if (at < end) { held = 3; }
+            while (at < end)
             {
-                place = pages.place_at[first + lane];
-                stage(pages.point_at[first + lane], node_at(low, place), &staged[lane][0].at[0]);
-            }
-            const int before = __shfl_up_sync(all_lanes, place, 1);
-            unsigned  heads  = __ballot_sync(all_lanes, lane < count && place != (lane == 0 ? last : before));
-            last             = __shfl_sync(all_lanes, place, count - 1);
-            __syncwarp();
-            for (int at = 0; at < count;)
-            {
-                if ((heads >> at & 1u) != 0)
+                if (at == staged_to)
                 {
-                    nodes.go_to(__shfl_sync(all_lanes, place, at) - warp * layer_cells);
-                    heads &= heads - 1;
+                    staged_from = at;
+                    staged_to   = min(at + points_a_batch, all);
+                    __syncwarp();
+                    if (at + lane < staged_to) { stage_listed(at + lane, low, &staged[lane][0].at[0]); }
+                    __syncwarp();
                 }
-                const int stop = heads != 0 ? __ffs(static_cast<int>(heads)) - 1 : count;
-                nodes.add(staged, at, stop);
+                const std::int32_t stop = min(end, staged_to);
+                nodes.add(staged, at - staged_from, stop - staged_from);
                 at = stop;
             }
-            __syncwarp();
+            const int x = cell % page_edge, y = cell / page_edge;
+            for (int left = x; left < (x < page_edge - 1 ? x + 1 : tile_edge) && held > 0; ++left, --held)
+            {
+                nodes.leave(left, y);
+            }
         }
-        nodes.finish();
+    }
+
+    __device__ void stage_listed(std::int32_t at, Index3 low, Real* brought) const
+    {
+        stage(pages.point_at[at], node_at(low, pages.place_at[at]), brought);
     }
 
     __device__ void stage(std::int64_t i, Index3 cell, Real* brought) const
