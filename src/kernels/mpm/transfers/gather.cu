@@ -230,15 +230,15 @@ struct GatherPage
         for (; at < end; at += threads)
         {
             __pipeline_wait_prior(0);
-            const PointState<Real> point    = waiting.take(points, material);
-            const Listed           now      = next;
-            next                            = later;
-            material                        = fetch(next, at + threads < end, waiting);
-            later                           = listed(at + 2 * threads, end);
-            const Index3            cell    = node_at(low, now.place);
-            const auto              stencil = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages);
-            const Real* lowest = tile + gather_slot(cell.x & 3, cell.y & 3, cell.z & 3);
-            const auto  seen   = see(stencil, spacing, lowest, Moment{});
+            const PointState<Real> point = waiting.take(points, material);
+            const Listed           now   = next;
+            next                         = later;
+            material                     = fetch(next, at + threads < end, waiting);
+            later                        = listed(at + 2 * threads, end);
+            const Index3 cell            = node_at(low, now.place);
+            const auto   stencil         = stencil_above<Real>(cell, point.position, pages.inverse_spacing, pages);
+            const Real*  lowest          = tile + gather_slot(cell.x & 3, cell.y & 3, cell.z & 3);
+            const auto   seen            = see(stencil, spacing, lowest, Moment{});
             const Move move = update_point(points, now.point, point, seen, stencil.base, pages, page, step, sum, peak);
             moves.to[at]    = packed(move);
             if (move.cell_change != CellChange::none) { count_move(move, count); }

@@ -75,7 +75,7 @@ public:
     {
         for (int k = 1; k < groups; ++k)
         {
-            taker_[k - 1]  = (group_ + groups - k) % groups;
+            taker_[k - 1] = (group_ + groups - k) % groups;
             giver_[k - 1] = (group_ + k) % groups * group_lanes + 3 * layer_ + row_;
         }
     }
@@ -113,7 +113,7 @@ public:
 private:
     static constexpr int group_lanes = 9, groups = 3, group_channels = 3;
 
-    /// Of one node: mass and momentum, then force.
+    /// Sums of one node: mass and momentum, then force.
     using Sums = Real[node_channels];
 
     __device__ static Pair<Real> pair(const Real* at) { return *reinterpret_cast<const Pair<Real>*>(at); }
@@ -172,10 +172,7 @@ private:
     {
         Real sum = first_node(group_, c);
 #pragma unroll
-        for (int k = 0; k < groups - 1; ++k)
-        {
-            sum += __shfl_sync(all_lanes, first_node(taker_[k], c), giver_[k]);
-        }
+        for (int k = 0; k < groups - 1; ++k) { sum += __shfl_sync(all_lanes, first_node(taker_[k], c), giver_[k]); }
         return sum;
     }
 
@@ -187,8 +184,8 @@ private:
     }
 
     int   group_, row_, layer_;
-    int   channels_; ///< number of a node's channels that the lane adds to the tile
-    Real* low_;      ///< the first of them, of the row's first node in the layer's first cell
+    int   channels_;          ///< number of a node's channels that the lane adds to the tile
+    Real* low_;               ///< the first of them, of the row's first node in the layer's first cell
     int   taker_[groups - 1]; ///< groups that take the lane's sums of their channels
     int   giver_[groups - 1]; ///< lanes whose sums of its channels it takes
     Sums  sums_[3]{};
@@ -217,9 +214,9 @@ struct ScatterPage
         if (pages.first_point[page] == pages.first_point[page + 1]) { return; }
         __shared__ Tile tile[scatter_warps];
         __shared__ Quad<Real> staged[scatter_warps][points_a_batch][quads];
-        const int             warp = static_cast<int>(threadIdx.x) / warp_size;
-        const int             lane = static_cast<int>(threadIdx.x) % warp_size;
-        Real* zeros = &tile[warp].channel[0][0];
+        const int             warp  = static_cast<int>(threadIdx.x) / warp_size;
+        const int             lane  = static_cast<int>(threadIdx.x) % warp_size;
+        Real*                 zeros = &tile[warp].channel[0][0];
         for (int n = lane; n < static_cast<int>(sizeof(Tile) / sizeof(Real)); n += warp_size) { zeros[n] = 0; }
         __syncwarp();
         add_points(page, warp, lane, tile[warp], staged[warp]);
@@ -327,7 +324,7 @@ struct ScatterPage
                     if (above < 0 || above > 2) { continue; }
                     sum += tile[warp].channel[channel][column + above * layer_nodes];
                 }
-                const TileSlot slot = z < page_edge ? low : high;
+                const TileSlot slot                                            = z < page_edge ? low : high;
                 out[slot.first + z % page_edge * step + channel * slot.stride] = sum;
             }
         }
