@@ -29,6 +29,16 @@ void load_tile(const Real* motion, const std::int32_t* neighbours, Tile<Real>& t
     }
 }
 
+/// Interpolates the motion, all components at a time; node(a, b, c) returns the NodeMotion of a node of the stencil.
+template<class Real, class Node, class Moment>
+Seen<Real> see(const Stencil<Real>& s, Real spacing, Node node, Moment)
+{
+    const auto sum = sum_motion(s, node, Moment{});
+    Seen<Real> seen{};
+    for (int i = 0; i < 3; ++i) { set_seen(seen, i, sum, i, s, spacing, Moment{}); }
+    return seen;
+}
+
 template<class Real, class Moment>
 void gather_page(const PointsView<Real>& points, const PagesView& pages, const Real* motion,
                  const GatherStep<Real>& step, const MovesView& moves, std::int64_t page, double* tally, double* peaks,
@@ -55,9 +65,7 @@ void gather_page(const PointsView<Real>& points, const PagesView& pages, const R
         const auto*        lowest  = tile + tile_base(stencil.base);
         const auto         nodes   = [=](int a, int b, int c) -> const NodeMotion<Quad<Real>>&
         { return lowest[tile_offset(a, b, c)]; };
-        const auto sum = sum_motion(stencil, nodes, Moment{});
-        Seen<Real> seen{};
-        for (int i = 0; i < 3; ++i) { set_seen(seen, i, sum, i, stencil, spacing, Moment{}); }
+        const auto seen = see(stencil, spacing, nodes, Moment{});
         const Move move = update_point(points, i, point, seen, stencil.base, pages, page, step, sums, peaks);
         moves.to[at]    = packed(move);
         count[move.direction] += move.direction != own_page;
