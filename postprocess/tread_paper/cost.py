@@ -31,8 +31,7 @@ def _cost_of(runs, measures):
     summary, name = runs[0].summary, runs[0].path.name
     walls = ", ".join(_wall_of(run) for run in runs)
     cards = {card for run in runs for card in run.summary.get("devices", [])} - {USUAL}
-    parts = 1 + summary.get("restarts", 0)
-    return [walls + (f" ({', '.join(sorted(cards))})" if cards else "") + (f" in {parts} parts" if parts > 1 else ""), f"{summary['sim_per_wall']:.3g}",
+    return [walls + (f" ({', '.join(sorted(cards))})" if cards else ""), f"{summary['sim_per_wall']:.3g}",
             f"{summary['steps_per_s']:.0f}", f"{measures(f'{name} summary substeps_a_step'):.1f}", f"{measures(f'{name} summary memory_mb'):.0f}",
             f"{measures(f'{name} summary energy_error'):.0e}", text_of(resolution_of(summary).verdict)]
 
@@ -40,6 +39,8 @@ def _cost_of(runs, measures):
 def _wall_of(run):
     summary = run.summary
     wall = f"{summary['wall_s']:.{1 if summary['wall_s'] < 20 else 0}f}"
+    if summary.get("restarts", 0) > 0:
+        wall += f" in {1 + summary['restarts']} parts"
     return f"{wall} to {summary['time']:.1f} s, stopped" if was_stopped(run) else wall
 
 

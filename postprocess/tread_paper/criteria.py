@@ -106,7 +106,7 @@ class Table:
         except Absent as missing:
             numbers, absent = [], str(missing)
         here = self._here(row, numbers) if numbers else ""
-        return (row["what"], _paper_text(row), _criterion(row), self._beside(row), here, self._facts(groups), self._verdict(row, numbers, absent))
+        return (row["what"], _paper_text(row), _criterion(row), self._beside(row), here, self._facts(row, groups), self._verdict(row, numbers, absent))
 
     def _numbers(self, row):
         """Numbers of a row. Absent where one is not there; of rows that nobody judges, where none is: those have None for it."""
@@ -184,11 +184,23 @@ class Table:
                 parts.append(f"{text.split()[0].replace('_', ' ')}, after the run")
         return "; ".join(parts)
 
-    def _facts(self, groups):
+    def _tells(self, row, group, name):
+        """Whether a run got as far as the row asks, as a repeat that was stopped may not have."""
+        try:
+            for text in measures_of(row):
+                asked, _, rest = text.partition(" ")
+                if asked == group:
+                    self.measures(f"{name} {rest}")
+        except Absent:
+            return False
+        return True
+
+    def _facts(self, row, groups):
         """Resolution, rest, commit and differences of the runs of a row."""
         parts = []
         for group in groups:
-            there = [name for name in self.plan.members(group) if self.measures.has(name)]
+            stored = [name for name in self.plan.members(group) if self.measures.has(name)]
+            there = [name for name in stored if self._tells(row, group, name)] or stored
             if there:
                 facts = [", ".join(facts_of(self.measures.run(name).summary or {})) for name in there]
                 differences = _differences(self.plan.groups[group][0].set)

@@ -112,6 +112,15 @@ class Judging(unittest.TestCase):
             "mixed, 2 of 2: marginal, settled, lowered, abc; `--set time.contact_share=0.4`",
             "agrees; the error of the grid is larger than the tolerance"))
 
+    def test_a_repeat_counts_where_it_got(self):
+        summary = self.runs / "mixed_2" / "summary.json"
+        self.addCleanup(summary.write_text, JUDGED_SUMMARY, encoding="utf-8")
+        summary.write_text('{"status": "stopped", "commit": "abc"}', encoding="utf-8")
+        table = criteria.Table(self.plan, Measures(self.runs), self.theories, {})
+        row = {"what": "a", "paper": "b", "source": "text", "expected": 45.0, "tolerance": 3.0, "basis": "c"}
+        for measure, counted in (("mixed mean torque 1 2", "mixed, 2 of 2"), ("mixed mean torque 1 end", "mixed, 1 of 2"), (["mixed last way", "mixed mean torque 1 2"], "mixed, 1 of 2")):
+            self.assertIn(counted, table.cells({**row, "measure": measure})[-2])
+
     def test_verdicts_in_tolerances(self):
         torque = {"measure": "mixed mean torque 1 2", "unit": "N m", "basis": "c"}
         self.assertEqual(self.verdict(**torque, expected=60.0, tolerance=5.0), "differs by 3.0 tolerances of 5 N m; the error of the grid is larger than the tolerance; why is open")

@@ -228,7 +228,7 @@ class PaperTest(unittest.TestCase):
         shutil.copyfile(DOCS / "paper.md", document)
         done = self.command("paper.py", "cost", "--runs", self.runs, "--output", self.runs.parent, "--document", document)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("| 3.4 sand | 4159; 127; 2600 | 1.0 (NVIDIA H100) in 2 parts | 3 | 3 | 2.0 | 1 | 1e-06 | no verdict | 60 | met |",
+        self.assertIn("| 3.4 sand | 4159; 127; 2600 | 1.0 in 2 parts (NVIDIA H100) | 3 | 3 | 2.0 | 1 | 1e-06 | no verdict | 60 | met |",
                       document.read_text(encoding="utf-8"))
 
     def test_the_surface_of_a_bed(self):
