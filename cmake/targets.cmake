@@ -29,12 +29,13 @@ if(TREAD_SANITIZE)
 endif()
 
 # tread_precompile(TARGET HEADERS...): these, and what all files read, are compiled once for the files of a target, unless they
-# are few. A file of src that lacks an include is found by clang-tidy, for which ci/full precompiles nothing.
+# are few, as they are where a unity build joins them. A file of src that lacks an include is found by clang-tidy, for which
+# ci/full precompiles nothing.
 function(tread_precompile target)
   get_target_property(sources ${target} SOURCES)
   list(FILTER sources INCLUDE REGEX "[.]cpp$")
   list(LENGTH sources files)
-  if(files GREATER 4)
+  if(files GREATER 4 AND NOT CMAKE_UNITY_BUILD)
     target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <string> <vector> <fmt/format.h> ${ARGN})
   endif()
 endfunction()
