@@ -184,23 +184,14 @@ class Table:
                 parts.append(f"{text.split()[0].replace('_', ' ')}, after the run")
         return "; ".join(parts)
 
-    def _tells(self, row, group, name):
-        """Whether a run got as far as the row asks, as a repeat that was stopped may not have."""
-        try:
-            for text in measures_of(row):
-                asked, _, rest = text.partition(" ")
-                if asked == group:
-                    self.measures(f"{name} {rest}")
-        except Absent:
-            return False
-        return True
-
     def _facts(self, row, groups):
         """Resolution, rest, commit and differences of the runs of a row."""
         parts = []
         for group in groups:
             stored = [name for name in self.plan.members(group) if self.measures.has(name)]
-            there = [name for name in stored if self._tells(row, group, name)] or stored
+            asked = [rest for one, _, rest in (text.partition(" ") for text in measures_of(row)) if one == group]
+            # A repeat that was stopped may not have got as far as the row asks.
+            there = [name for name in stored if all(self.measures.tells(f"{name} {rest}") for rest in asked)] or stored
             if there:
                 facts = [", ".join(facts_of(self.measures.run(name).summary or {})) for name in there]
                 differences = _differences(self.plan.groups[group][0].set)

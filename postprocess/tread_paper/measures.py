@@ -62,6 +62,14 @@ class Measures:
             raise RunError(f"'{text}': '{what}' is none of {', '.join(ways)}")
         return float(ways[what](self.run(name), what, rest))
 
+    def tells(self, text):
+        """Whether there is the number that `text` asks for."""
+        try:
+            self(text)
+        except Absent:
+            return False
+        return True
+
 
 def _statistic(run, what, words):
     history = history_of(run)

@@ -243,9 +243,7 @@ struct ScatterPage
                 {
                     staged_from = at;
                     staged_to   = min(at + points_a_batch, all);
-                    __syncwarp();
-                    if (at + lane < staged_to) { stage_listed(at + lane, low, &staged[lane][0].at[0]); }
-                    __syncwarp();
+                    stage_batch(at, staged_to, lane, low, staged);
                 }
                 const std::int32_t stop = min(end, staged_to);
                 nodes.add(staged, at - staged_from, stop - staged_from);
@@ -259,9 +257,14 @@ struct ScatterPage
         }
     }
 
-    __device__ void stage_listed(std::int32_t at, Index3 low, Real* brought) const
+    /// Loads listed points `first` to `end`, a lane each, once all lanes are done with those before.
+    __device__ void stage_batch(std::int32_t first, std::int32_t end, int lane, Index3 low,
+                                Quad<Real> (*staged)[quads]) const
     {
-        stage(pages.point_at[at], node_at(low, pages.place_at[at]), brought);
+        __syncwarp();
+        const std::int32_t at = first + lane;
+        if (at < end) { stage(pages.point_at[at], node_at(low, pages.place_at[at]), &staged[lane][0].at[0]); }
+        __syncwarp();
     }
 
     __device__ void stage(std::int64_t i, Index3 cell, Real* brought) const
