@@ -1,7 +1,10 @@
 #include "solver/bodies/body_sleep.hpp"
 
+#include <memory>
+
 #include "backend/instantiate.hpp"
-#include "solver/bodies/contact_records.hpp"
+#include "decomp/combine.hpp"
+#include "solver/bodies/sleeping_records.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
@@ -15,8 +18,31 @@ constexpr double worth_a_list = 1.0 / 16;
 template<class Exec>
 double rocks_of(const BodyState<Exec>& state)
 {
-    return static_cast<double>(state.bodies.position.size() - state.named());
+    return static_cast<double>(static_cast<std::int64_t>(state.numbers().bodies()) - state.named());
 }
+
+/// Holders of a body exchange what they know of it.
+template<class Exec>
+class SharedSleep : public dem::RanksOfSleepers<Exec>
+{
+public:
+    explicit SharedSleep(BodyRanks<Exec>& ranks)
+        : ranks_(ranks)
+    {
+        ranks.shared().begin_marks();
+    }
+
+    dem::SharedView shared() override { return ranks_.shared().view(); }
+    void            exchange_marks() override { ranks_.shared().exchange_marks(); }
+    void            exchange_wrenches() override { ranks_.shared().exchange_wrenches(); }
+    void            add(double* values, int count) const override
+    {
+        decomp::combine(ranks_.communicator(), values, count, 0);
+    }
+
+private:
+    BodyRanks<Exec>& ranks_;
+};
 
 void transfer_clock(StateFile& file, dem::SleepClock& clock, SleepSettings& settings, std::size_t phases)
 {
@@ -26,13 +52,23 @@ void transfer_clock(StateFile& file, dem::SleepClock& clock, SleepSettings& sett
                  accept::number(settings.phase, -1, static_cast<double>(phases) - 1));
 }
 
-template<class Exec, class T, class Bound>
-void transfer_array(StateFile& file, const char* name, Array<Exec, T>& array, const Bound& accepted)
+/// Transfers arrays by row as those of all bodies.
+template<class Exec>
+struct RowTransfer
 {
-    std::vector<T> values = array.to_host();
-    file.own_or_all(name, values, accepted);
-    if (file.loads()) { array.assign(values); }
-}
+    template<class T, class Bound>
+    void operator()(const char* name, Array<Exec, T>& array, const Bound& accepted)
+    {
+        std::vector<T> values = array.to_host();
+        if (!file.loads()) { values = order.rows(std::move(values)); }
+        file.parts(name, values, accept::all(accept::rows(numbers.bodies()), accepted));
+        if (file.loads()) { array.assign(numbers.of_rows(values)); }
+    }
+
+    StateFile&         file;
+    const BodyNumbers& numbers;
+    BodyBlocks         order; ///< of the file
+};
 
 } // namespace
 
@@ -42,6 +78,7 @@ void begin_sleep(BodyState<Exec>& state)
     const scene::Sleep& sleep = state.scene.sleep;
     dem::begin_sleep(state.exec, state.pairs, state.bodies,
                      {sleep.rock_speed.value(), sleep.rock_rest, sleep.rock_load, state.named()});
+    if (state.ranks) { state.pairs.sleep.ranks = std::make_unique<SharedSleep<Exec>>(*state.ranks); }
     if (!sleep.distance || state.world.sand.size() == 0) { return; }
     dem::SleepingBodies<Exec>& all   = state.pairs.sleep;
     const std::int64_t         count = state.bodies.position.size();
@@ -105,31 +142,25 @@ std::optional<double> mean_asleep(const BodyState<Exec>& state)
 template<class Exec>
 void transfer_sleep(BodyState<Exec>& state, SleepSettings& settings, StateFile& file)
 {
-    dem::SleepingBodies<Exec>& sleep  = state.pairs.sleep;
-    dem::SleepingPairs<Exec>&  pairs  = sleep.pairs;
-    const auto                 bodies = static_cast<std::size_t>(state.bodies.position.size());
+    dem::SleepingBodies<Exec>& sleep = state.pairs.sleep;
     transfer_clock(file, sleep.clock, settings, state.scene.phases.size());
-    transfer_array(file, "rock_sleep/asleep", state.bodies.asleep,
-                   accept::all(accept::rows(bodies), accept::within(0, 1)));
-    transfer_array(file, "rock_sleep/position", sleep.position, accept::all(accept::rows(bodies), accept::finite()));
-    transfer_array(file, "rock_sleep/orientation", sleep.orientation,
-                   accept::all(accept::rows(bodies), accept::unit_quaternions()));
-    transfer_array(file, "rock_sleep/quiet", sleep.quiet, accept::all(accept::rows(bodies), accept::not_negative()));
-    transfer_array(file, "rock_sleep/moves", sleep.moves, accept::all(accept::rows(bodies), accept::within(0, 1)));
+    RowTransfer<Exec> transfer{file, state.numbers(), file.loads() ? BodyBlocks() : state.blocks()};
+    transfer("rock_sleep/asleep", state.bodies.asleep, accept::within(0, 1));
+    transfer("rock_sleep/position", sleep.position, accept::finite());
+    transfer("rock_sleep/orientation", sleep.orientation, accept::unit_quaternions());
+    transfer("rock_sleep/quiet", sleep.quiet, accept::not_negative());
+    transfer("rock_sleep/moves", sleep.moves, accept::within(0, 1));
     if (sleep.bed.size() > 0)
     {
-        transfer_array(file, "rock_sleep/bed", sleep.bed,
-                       accept::all(accept::rows(bodies), accept::within(dem::bed_none, dem::bed_asleep)));
+        transfer("rock_sleep/bed", sleep.bed, accept::within(dem::bed_none, dem::bed_asleep));
     }
-    transfer_array(file, "rock_sleep/load", sleep.watch, accept::all(accept::rows(bodies), accept::finite()));
-    transfer_array(file, "rock_sleep/key", pairs.key,
-                   accept::all(accepted_keys(state.world), accept::ascending(), accept::distinct()));
-    const auto of_each = accept::all(accept::rows(static_cast<std::size_t>(pairs.key.size())), accept::finite());
-    transfer_array(file, "rock_sleep/patch", pairs.patch, of_each);
-    transfer_array(file, "rock_sleep/place", pairs.place, of_each);
-    transfer_array(file, "rock_sleep/contact", pairs.contact, of_each);
-    if (state.pairs.resists_rolling) { transfer_array(file, "rock_sleep/rolling", pairs.rolling, of_each); }
-    if (file.loads()) { dem::resume_sleep(state.exec, state.pairs, state.view()); }
+    transfer("rock_sleep/load", sleep.watch, accept::finite());
+    transfer_sleeping_pairs(state, file);
+    if (!file.loads()) { return; }
+    if (!file.exact()) { dem::wake_all(state.pairs, state.bodies); }
+    sleep.mark.resize(state.bodies.position.size());
+    sleep.mark.fill_zero();
+    dem::resume_sleep(state.exec, state.pairs, state.view());
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \

@@ -15,13 +15,6 @@ namespace tread::solver
 namespace
 {
 
-/// Whether this rank evaluates the contact of a pair.
-template<class Exec>
-bool decides(const BodyState<Exec>& state, const std::vector<std::int32_t>& is_large, std::uint64_t key)
-{
-    return !state.ranks || state.owns(deciding_body(is_large, key));
-}
-
 /// Records of pairs as they are in memory, an array each.
 struct RecordArrays
 {
@@ -45,7 +38,7 @@ RecordArrays chosen_records(const BodyState<Exec>& state, const RecordArrays& al
     const auto               is_large = state.pairs.sizes.is_large.to_host();
     for (std::size_t p = 0; p < all.key.size(); ++p)
     {
-        if (file.exact() || decides(state, is_large, all.key[p])) { order.push_back(p); }
+        if (file.exact() || is_answered_here(state, is_large, all.key[p])) { order.push_back(p); }
     }
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return all.key[a] < all.key[b]; });
     const auto chosen = [&](const auto& values)
@@ -67,13 +60,19 @@ void add_sleeping_contacts(const BodyState<Exec>& state, std::vector<world::Cont
     for (std::size_t p = 0; p < kept.key.size(); ++p)
     {
         if (!(kept.patch[p].stiffness > 0)) { continue; }
-        found.push_back({dem::whole_pair(kept.key[p]), kept.patch[p],
+        found.push_back({dem::whole_pair(state.numbers().key_in_scene(kept.key[p])), kept.patch[p],
                          kept.rolling.empty() ? dem::no_rolling() : kept.rolling[p], kept.place[p]});
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.key < b.key; });
 }
 
 } // namespace
+
+template<class Exec>
+bool is_answered_here(const BodyState<Exec>& state, const std::vector<std::int32_t>& is_large, std::uint64_t key)
+{
+    return !state.ranks || state.owns(deciding_body(is_large, key));
+}
 
 KeyBound accepted_keys(const world::World& world)
 {
@@ -103,7 +102,7 @@ void restore_contacts(BodyState<Exec>& state)
     for (const world::ContactRecord& contact : contacts)
     {
         const auto key = state.numbers().find_key(contact.key);
-        if (!key || !decides(state, is_large, *key)) { continue; }
+        if (!key || !is_answered_here(state, is_large, *key)) { continue; }
         const bool again = !records.key.empty() && dem::same_pair(records.key.back(), *key);
         several          = several || again;
         records.key.push_back(again ? records.key.back() + 1 : *key);
@@ -141,22 +140,22 @@ std::vector<world::ContactRecord> live_contacts(const BodyState<Exec>& state)
     return all;
 }
 
-/// Turns the keys of a scene's pairs into those of this rank's rows.
 template<class Exec>
-void take_keys_here(const BodyState<Exec>& state, RecordArrays& records, const StateFile& file)
+void take_keys_here(const BodyState<Exec>& state, std::vector<std::uint64_t>& keys, const StateFile& file,
+                    const char* name)
 {
     check_on_ranks(state.communicator(),
                    [&]
                    {
-                       for (std::size_t p = 0; p < records.key.size(); ++p)
+                       for (std::size_t p = 0; p < keys.size(); ++p)
                        {
-                           const auto key = state.numbers().find_key(records.key[p]);
+                           const auto key = state.numbers().find_key(keys[p]);
                            if (!key)
                            {
-                               file.refuse("pairs/key", {static_cast<std::int64_t>(p), "another pair",
-                                                         "a pair of bodies that the rank has rows for"});
+                               file.refuse(name, {static_cast<std::int64_t>(p), "another pair",
+                                                  "a pair of bodies that the rank has rows for"});
                            }
-                           records.key[p] = *key;
+                           keys[p] = *key;
                        }
                    });
 }
@@ -180,7 +179,7 @@ void transfer_contacts(BodyState<Exec>& state, StateFile& file)
     file.own_or_all("pairs/place", records.place, of_each_pair);
     if (!file.loads()) { return; }
 
-    take_keys_here(state, records, file);
+    take_keys_here(state, records.key, file, "pairs/key");
     const RecordArrays chosen = chosen_records(state, records, file);
     pairs.key.assign(chosen.key);
     pairs.patch.assign(chosen.patch);
@@ -190,6 +189,8 @@ void transfer_contacts(BodyState<Exec>& state, StateFile& file)
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
+    template bool is_answered_here(const BodyState<Exec>&, const std::vector<std::int32_t>&, std::uint64_t);           \
+    template void take_keys_here(const BodyState<Exec>&, std::vector<std::uint64_t>&, const StateFile&, const char*);  \
     template void                              restore_contacts(BodyState<Exec>&);                                     \
     template std::vector<world::ContactRecord> live_contacts(const BodyState<Exec>&);                                  \
     template void                              transfer_contacts(BodyState<Exec>&, StateFile&)

@@ -20,6 +20,15 @@ using KeyBound = std::function<io::accept::Verdict(const std::vector<std::uint64
 /// Accepts keys of two bodies, or of a body and a wall.
 KeyBound accepted_keys(const world::World& world);
 
+/// Whether this rank evaluates the contact of a pair of rows. `is_large`: dem::BodySizes::is_large.
+template<class Exec>
+bool is_answered_here(const BodyState<Exec>& state, const std::vector<std::int32_t>& is_large, std::uint64_t key);
+
+/// Turns keys of a scene's pairs, of the data set `name`, into those of this rank's rows. Collective.
+template<class Exec>
+void take_keys_here(const BodyState<Exec>& state, std::vector<std::uint64_t>& keys, const StateFile& file,
+                    const char* name);
+
 /// Stores the world's contacts as the previous list: pairs found again keep their records.
 template<class Exec>
 void restore_contacts(BodyState<Exec>& state);

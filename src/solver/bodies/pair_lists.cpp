@@ -56,6 +56,14 @@ bool is_valid(BodyState<Exec>& state, PairLists<Exec>& lists, double dt)
     return true;
 }
 
+/// What sleeps is weighed anew on all ranks or on none.
+template<class Exec>
+void agree_on_sleepers(BodyState<Exec>& state)
+{
+    dem::SleepingBodies<Exec>& sleep = state.pairs.sleep;
+    if (sleep.wanted) { sleep.change = largest_over_ranks(state.communicator(), sleep.change ? 1 : 0) > 0; }
+}
+
 template<class Exec>
 void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps, UnheldRows unheld)
 {
@@ -76,6 +84,7 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     {
         state.assign_owners(unheld);
         ++lists.partition_version;
+        agree_on_sleepers(state);
     }
     dem::list_pairs(exec, pairs, state.view(), law);
     dem::mark_places(exec, lists.displacements, state.view());

@@ -8,6 +8,7 @@
 
 #include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
+#include "kernels/dem/sleep/sleep.hpp"
 #include "solver/ranks/page_loads.hpp"
 #include "solver/ranks/row_arrays.hpp"
 
@@ -20,12 +21,16 @@ namespace
 template<class Exec>
 decomp::Columns state_columns(const RowArrays<Exec>& arrays)
 {
-    const dem::BodiesView view = arrays.bodies.view();
-    return decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.mass,
+    const dem::BodiesView view    = arrays.bodies.view();
+    decomp::Columns       columns = decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.mass,
                            view.inertia, view.scale, view.shape, view.material, view.locked, view.damped, view.force,
                            view.torque, view.stiffness, arrays.pairs.displacement.allowed.data(),
                            arrays.pairs.sizes.node_area.data(), arrays.pairs.sizes.is_large.data(),
                            arrays.bounding_radii.data());
+    if (!arrays.pairs.sleep.wanted) { return columns; }
+    columns.add(decomp::rows(view.asleep));
+    arrays.pairs.sleep.for_each_state([&](auto& array) { columns.add(decomp::rows(array.data())); });
+    return columns;
 }
 
 /// Rows without one before get the values of the first.
@@ -146,7 +151,11 @@ void BodyRanks<Exec>::exchange_bodies(const RowArrays<Exec>& arrays, const BodyH
     // 2. States and contact records leave from the rows before.
     states_.plan(numbers().rows_of(joined(changes.leaving)), routes_of(changes.leaving), routes_of(changes.arriving));
     states_.begin(state_columns(arrays));
-    if (change.owners) { records_.take(communicator(), arrays.pairs, numbers(), decided); }
+    if (change.owners)
+    {
+        records_.take(communicator(), arrays.pairs, numbers(), decided);
+        if (arrays.pairs.sleep.wanted) { sleepers_.take(communicator(), arrays.pairs, numbers(), decided); }
+    }
     // 3. Rows go and come.
     held_ = changed(held_, changes.all, communicator().rank());
     take_roles(arrays, changes.all, unheld);
@@ -154,7 +163,11 @@ void BodyRanks<Exec>::exchange_bodies(const RowArrays<Exec>& arrays, const BodyH
     // 4. States and records arrive.
     arriving_.assign(numbers().rows_of(joined(changes.arriving)));
     states_.finish(state_columns(arrays), arriving_);
-    if (change.owners) { records_.send(communicator(), arrays.pairs, numbers()); }
+    if (change.owners)
+    {
+        records_.send(communicator(), arrays.pairs, numbers());
+        if (arrays.pairs.sleep.wanted) { sleepers_.send(communicator(), arrays.pairs, numbers()); }
+    }
 }
 
 /// Takes the roles that change, and the rows of bodies that come and go.
@@ -189,6 +202,17 @@ void BodyRanks<Exec>::move_rows(const RowArrays<Exec>& arrays, RowChange change)
     arrays.pairs.displacement.search_radius.resize(moves.from.size());
     arrays.bodies.number.assign(numbers().all());
     dem::renumber_records(exec_, arrays.pairs, moves.to, moves.from.size());
+    if (arrays.pairs.sleep.wanted) { move_sleepers(arrays, moves); }
+}
+
+template<class Exec>
+void BodyRanks<Exec>::move_sleepers(const RowArrays<Exec>& arrays, const RowMoves<Exec>& moves)
+{
+    dem::SleepingBodies<Exec>& sleep = arrays.pairs.sleep;
+    take_rows(exec_, moves.from, arrays.bodies.asleep);
+    sleep.for_each_state([&](auto& array) { take_rows(exec_, moves.from, array); });
+    take_rows(exec_, moves.from, sleep.mark);
+    dem::renumber_sleeping_pairs(exec_, arrays.pairs, moves.to, moves.from.size());
 }
 
 template<class Exec>

@@ -14,6 +14,7 @@
 #include "solver/ranks/body_owners.hpp"
 #include "solver/ranks/record_migration.hpp"
 #include "solver/ranks/shared_bodies.hpp"
+#include "solver/ranks/sleeping_pair_migration.hpp"
 #include "solver/state_file.hpp"
 #include "world/world.hpp"
 
@@ -105,6 +106,7 @@ private:
                          UnheldRows unheld);
     void take_roles(const RowArrays<Exec>& arrays, const BodyHoldings& changes, UnheldRows unheld);
     void move_rows(const RowArrays<Exec>& arrays, RowChange change);
+    void move_sleepers(const RowArrays<Exec>& arrays, const RowMoves<Exec>& moves);
 
     decomp::Decomposition<Exec>&            decomposition_;
     Exec                                    exec_;
@@ -116,6 +118,7 @@ private:
     FetchedArray<Exec, std::int32_t>        border_body_;
     FetchedArray<Exec, contact::BorderBody> border_ball_;
     RecordMigration<Exec>                   records_;
+    SleepingPairMigration<Exec>             sleepers_;
     decomp::Exchange<Exec>                  states_;
     Array<Exec, std::int32_t>               arriving_;
     std::optional<RowMoves<Exec>>           moves_;

@@ -1,7 +1,5 @@
 #include "solver/ranks/record_migration.hpp"
 
-#include <map>
-
 #include "backend/instantiate.hpp"
 #include "decomp/messages.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
@@ -48,7 +46,8 @@ dem::RecordRows<Exec> rows_of(const Exec& exec, const Records& records)
     return rows;
 }
 
-/// Destination rank of every row whose body leaves.
+} // namespace
+
 std::map<std::int64_t, std::size_t> destinations(const BodyHoldings& decided, const BodyNumbers& numbers,
                                                  std::int32_t here)
 {
@@ -59,8 +58,6 @@ std::map<std::int64_t, std::size_t> destinations(const BodyHoldings& decided, co
     }
     return moved;
 }
-
-} // namespace
 
 std::int64_t deciding_body(const std::vector<std::int32_t>& is_large, std::uint64_t key)
 {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "base/communicator.hpp"
@@ -16,6 +17,10 @@ namespace tread::solver
 /// Row of the body of a pair of rows whose owner evaluates the contact. `is_large`: dem::BodySizes::is_large, one entry
 /// per body.
 std::int64_t deciding_body(const std::vector<std::int32_t>& is_large, std::uint64_t key);
+
+/// Destination rank of every row whose body leaves rank `here`. `numbers`: of the rows before.
+std::map<std::int64_t, std::size_t> destinations(const BodyHoldings& decided, const BodyNumbers& numbers,
+                                                 std::int32_t here);
 
 /// Contact records migrate with the body whose owner evaluates the contact. Only those reach the host.
 template<class Exec>

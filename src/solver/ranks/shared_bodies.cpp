@@ -58,7 +58,8 @@ void number_shares(SharingPlan& plan, const BodyHoldings& held, std::size_t rank
 
 template<class Exec>
 SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport)
-    : body_(transport.exec(), "shared bodies")
+    : transport_(&transport)
+    , body_(transport.exec(), "shared bodies")
     , place_(transport.exec(), "places of shared bodies")
     , first_(transport.exec(), "shares of bodies")
     , row_(transport.exec(), "rows of shares")
@@ -90,6 +91,7 @@ void SharedBodies<Exec>::plan(const BodyHoldings& held, const BodyNumbers& numbe
     prepare(wrench_);
     prepare(stiffness_);
     prepare(speed_);
+    if (mark_) { prepare(*mark_); }
 }
 
 template<class Exec>
@@ -113,8 +115,9 @@ void SharedBodies<Exec>::pass_on(Shares<Share>& shares)
 template<class Exec>
 dem::SharedView SharedBodies<Exec>::view()
 {
-    return {body_.size(), body_.data(),        place_.data(),          first_.data(),
-            row_.data(),  wrench_.rows.data(), stiffness_.rows.data(), speed_.rows.data()};
+    return {body_.size(),           body_.data(),       place_.data(),
+            first_.data(),          row_.data(),        wrench_.rows.data(),
+            stiffness_.rows.data(), speed_.rows.data(), mark_ ? mark_->rows.data() : nullptr};
 }
 
 template<class Exec>
@@ -133,6 +136,12 @@ template<class Exec>
 void SharedBodies<Exec>::exchange_speeds()
 {
     pass_on(speed_);
+}
+
+template<class Exec>
+void SharedBodies<Exec>::exchange_marks()
+{
+    pass_on(*mark_);
 }
 
 #define TREAD_INSTANTIATE(Exec) template class SharedBodies<Exec>

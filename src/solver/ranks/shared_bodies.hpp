@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "decomp/exchange.hpp"
@@ -26,12 +27,16 @@ public:
     /// Follows a change of this rank's rows.
     void take_rows(const BodyNumbers& numbers);
 
+    /// Prepares for exchange_marks(), which a scene without sleep does not need; call before plan().
+    void begin_marks() { mark_.emplace(*transport_, "shares of marks"); }
+
     std::int64_t    count() const { return body_.size(); }
     dem::SharedView view();
 
     void exchange_wrenches();
     void exchange_stiffness();
     void exchange_speeds();
+    void exchange_marks();
 
 private:
     template<class Share>
@@ -50,6 +55,7 @@ private:
     template<class Share>
     void pass_on(Shares<Share>& shares);
 
+    decomp::Transport<Exec>*    transport_;
     std::vector<std::int32_t>   number_; ///< [count], ascending
     Array<Exec, std::int32_t>   body_;   ///< [count], rows, ascending
     Array<Exec, std::int32_t>   place_;  ///< [rows], index in body_; -1: not shared
@@ -58,6 +64,8 @@ private:
     Shares<dem::WrenchShare>    wrench_;
     Shares<dem::StiffnessShare> stiffness_;
     Shares<double>              speed_;
+
+    std::optional<Shares<std::int32_t>> mark_; ///< only where bodies may sleep
 };
 
 } // namespace tread::solver

@@ -237,7 +237,7 @@ private:
         account_contacts(b, share, pull + load.held);
         load.impulse += dt * pull.force;
         load.angular_impulse += dt * pull.torque;
-        totals[b].holding_impulse -= dt * pull.force;
+        if (bodies.is_owned(b)) { totals[b].holding_impulse -= dt * pull.force; }
     }
 
     TREAD_HD MeanMotion integrate(std::int64_t b, BodyMotion& body, const ContactWrench& contact,

@@ -40,6 +40,7 @@ struct SharedView
     WrenchShare*    wrench    = nullptr; ///< [rows], this rank's own shares first: [count]
     StiffnessShare* stiffness = nullptr; ///< [rows], likewise
     double*         speed     = nullptr; ///< [rows], likewise: m/s, maximum speed of the bodies near it
+    std::int32_t*   mark      = nullptr; ///< [rows], likewise: of the sleep of bodies
 
     TREAD_HD bool is_shared(std::int64_t b) const { return place != nullptr && place[b] >= 0; }
 };
@@ -63,6 +64,18 @@ TREAD_HD double speed_of_all(const SharedView& shared, std::int64_t i)
     for (std::int32_t r = shared.first[i]; r < shared.first[i + 1]; ++r)
     {
         largest = std::fmax(largest, shared.speed[shared.row[r]]);
+    }
+    return largest;
+}
+
+/// Maximum over ranks of the marks of body[i].
+TREAD_HD std::int32_t mark_of_all(const SharedView& shared, std::int64_t i)
+{
+    std::int32_t largest = shared.mark[shared.row[shared.first[i]]];
+    for (std::int32_t r = shared.first[i] + 1; r < shared.first[i + 1]; ++r)
+    {
+        const std::int32_t mark = shared.mark[shared.row[r]];
+        largest                 = mark > largest ? mark : largest;
     }
     return largest;
 }

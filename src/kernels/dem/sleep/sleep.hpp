@@ -4,7 +4,8 @@
 #include "kernels/dem/pairs/pairs.hpp"
 
 // Sleep of bodies (docs/sleep.md). A look decides who falls asleep or wakes; both take effect with the next list of
-// pairs. Allocates only in scenes where pairs.sleep.wanted.
+// pairs. Allocates only in scenes where pairs.sleep.wanted. Collective where pairs.sleep.ranks: all holders of a body
+// then decide alike about it.
 namespace tread::dem
 {
 
@@ -12,7 +13,7 @@ namespace tread::dem
 template<class Exec>
 void begin_sleep(const Exec&, Pairs<Exec>& pairs, Bodies<Exec>& bodies, const BodyRestRule& rule);
 
-/// Result of a look, in bodies.
+/// Result of a look, in bodies of all ranks.
 struct SleepCount
 {
     double wake;  ///< sleepers that wake
@@ -59,6 +60,11 @@ void hold_sleepers(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
 /// Rebuilds what settle_sleepers derives, from loaded pairs and loads.
 template<class Exec>
 void resume_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
+
+/// Gives the bodies of sleeping pairs their rows after others have come or gone, as renumber_records does; what follows
+/// from them is rebuilt with the next list.
+template<class Exec>
+void renumber_sleeping_pairs(const Exec&, Pairs<Exec>& pairs, const Array<Exec, std::int32_t>& row, std::int64_t rows);
 
 /// Lists the bodies that substeps compute: awake ones, and sleepers with a listed pair or an external wrench.
 template<class Exec>

@@ -3,6 +3,7 @@
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
 #include "kernels/dem/pairs/pairs_impl.hpp"
+#include "kernels/dem/pairs/records_kern.hpp"
 #include "kernels/dem/pairs/select.hpp"
 #include "kernels/dem/sleep/sleep_kern.hpp"
 
@@ -152,20 +153,64 @@ void order_contacts(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodi
              pair_steps::WriteRuns{count, kept.key.data(), second_key.data(), kept.first.data(), kept.second.data()});
 }
 
-/// Sums number, mass and contact energy of what sleeps.
+/// Gives each body that several ranks hold the largest of their marks.
+template<class Exec>
+void agree_on(const Exec& exec, SleepingBodies<Exec>& sleep, Array<Exec, std::int32_t>& mark)
+{
+    if (!sleep.ranks) { return; }
+    const SharedView shared = sleep.ranks->shared();
+    for_each(exec, "share sleep marks", shared.count, ShareMark{shared, mark.data()});
+    sleep.ranks->exchange_marks();
+    for_each(exec, "take sleep marks", shared.count, TakeMark{shared, mark.data()});
+}
+
+/// Exchanges the shares of a sum over the contacts of shared bodies.
+template<class Exec, class Sum>
+void share_sums(const Exec& exec, SleepingBodies<Exec>& sleep, const char* name, const Sum& sum)
+{
+    if (!sleep.ranks) { return; }
+    const SharedView shared = sleep.ranks->shared();
+    for_each(exec, name, shared.count, ShareSum<Sum>{shared, sum});
+    sleep.ranks->exchange_wrenches();
+}
+
+/// Sums rows of doubles in pairs.measure, one a body, over bodies and ranks. Sums: a struct of doubles.
+template<class Sums, class Exec, class WriteRow>
+Sums sum_over_bodies(const Exec& exec, Pairs<Exec>& pairs, std::int64_t bodies, const char* name, WriteRow write_row)
+{
+    constexpr int width = sizeof(Sums) / sizeof(double);
+    pairs.measure.resize(width * bodies + width);
+    double* rows = pairs.measure.data();
+    for_each(exec, name, bodies, write_row(rows));
+    sum_rows(exec, rows, bodies, width, rows + width * bodies);
+    auto sums = read(exec, reinterpret_cast<const Sums*>(rows + width * bodies));
+    pairs.sleep.add_ranks(reinterpret_cast<double*>(&sums), width);
+    return sums;
+}
+
+/// Counts the marks of all ranks' bodies.
+template<class Exec>
+SleepCount count_marks(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+{
+    const SleepingBodies<Exec>& sleep = pairs.sleep;
+    return sum_over_bodies<SleepCount>(exec, pairs, bodies.count, "count sleep marks",
+                                       [&](double* rows) {
+                                           return CountMark{bodies, sleep.rule.first, sleep.mark.data(), rows};
+                                       });
+}
+
+/// Sums number and mass of what sleeps on all ranks, and contact energy of what sleeps here.
 template<class Exec>
 void weigh(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     SleepingBodies<Exec>& sleep = pairs.sleep;
     const std::int64_t    count = sleep.pairs.key.size();
-    constexpr int         width = sizeof(SleepersSum) / sizeof(double);
-    pairs.measure.resize(std::max(width * bodies.count + width, count + 1));
+    const auto            sum   = sum_over_bodies<SleepersSum>(exec, pairs, bodies.count, "weigh sleepers",
+                                                               [&](double* rows) { return WriteSleeper{bodies, rows}; });
+    sleep.count                 = sum.count;
+    sleep.mass                  = sum.mass;
+    pairs.measure.resize(count + 1);
     double* rows = pairs.measure.data();
-    for_each(exec, "weigh sleepers", bodies.count, WriteSleeper{bodies, rows});
-    sum_rows(exec, rows, bodies.count, width, rows + width * bodies.count);
-    const auto sum = read(exec, reinterpret_cast<const SleepersSum*>(rows + width * bodies.count));
-    sleep.count    = sum.count;
-    sleep.mass     = sum.mass;
     for_each(exec, "energies of sleepers", count, WriteEnergy{sleep.pairs.view(), rows});
     sum_rows(exec, rows, count, 1, rows + count);
     sleep.energy = read(exec, rows + count);
@@ -197,34 +242,27 @@ SleepCount look_at_sleep(const Exec& exec, Pairs<Exec>& pairs, const BodiesView&
     using namespace sleeping;
     SleepingBodies<Exec>& sleep = pairs.sleep;
     SleepClock&           clock = sleep.clock;
-    constexpr int         width = sizeof(SleepCount) / sizeof(double);
     const bool            ends  = clock.window >= sleep.rule.rest;
-    pairs.measure.resize(bodies.count * width + width);
-    double* counts = pairs.measure.data() + bodies.count * width;
     for_each(exec, "time at rest", bodies.count,
              WatchRest{bodies, law.templates, sleep.rule, clock.look, sleep.rest_watch()});
     for_each(exec, "look at sleep", bodies.count,
              LookAtBody{bodies, law.templates, pairs.view(), sleep.rule, ends ? clock.window : 0.0, clock.held,
-                        sleep.rest_watch(), sleep.bed.data(), sleep.watch.data(), sleep.mark.data(),
-                        pairs.measure.data()});
-    sum_rows(exec, pairs.measure.data(), bodies.count, width, counts);
+                        sleep.rest_watch(), sleep.bed.data(), sleep.watch.data(), sleep.mark.data()});
+    agree_on(exec, sleep, sleep.mark);
     clock.look = 0;
     if (ends) { clock.window = clock.held = 0; }
-    return read(exec, reinterpret_cast<const SleepCount*>(counts));
+    return count_marks(exec, pairs, bodies);
 }
 
 template<class Exec>
 SleepCount follow_beds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     SleepingBodies<Exec>& sleep = pairs.sleep;
-    constexpr int         width = sizeof(SleepCount) / sizeof(double);
-    pairs.measure.resize(bodies.count * width + width);
-    double* counts = pairs.measure.data() + bodies.count * width;
+    sleeping::agree_on(exec, sleep, sleep.next_bed);
     for_each(exec, "follow beds", bodies.count,
              sleeping::FollowBed{bodies, sleep.rule, sleep.quiet.data(), sleep.next_bed.data(), sleep.bed.data(),
-                                 sleep.mark.data(), pairs.measure.data()});
-    sum_rows(exec, pairs.measure.data(), bodies.count, width, counts);
-    const auto count = read(exec, reinterpret_cast<const SleepCount*>(counts));
+                                 sleep.mark.data()});
+    const SleepCount count = sleeping::count_marks(exec, pairs, bodies);
     if (count.wake > 0) { sleep.change = true; }
     return count;
 }
@@ -239,8 +277,11 @@ void fall_asleep(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     stage_bodies(exec, pairs, bodies);
     evaluate_contacts(exec, pairs, bodies, law, 0);
     for_each(exec, "friction at rest", bodies.count, BookFriction{bodies.count, pairs.view(), totals});
+    const SumLoads loads{pairs.view()};
+    share_sums(exec, sleep, "share loads", loads);
     for_each(exec, "begin watch", bodies.count,
-             BeginWatch{bodies, pairs.view(), sleep.rule.load, gravity, sleep.watch.data(), sleep.mark.data()});
+             BeginWatch{bodies, loads, sleep.shared(), sleep.rule.load, gravity, sleep.watch.data(),
+                        sleep.mark.data()});
     keep_contacts(exec, pairs, bodies);
     sleep.change = true;
 }
@@ -264,19 +305,16 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     if (sleep.change) { order_contacts(exec, pairs, bodies); }
     for_each(exec, "mark sleepers near", bodies.count * PairSearch::parts,
              MarkNear{pair_steps::make_search(pairs, bodies, law, cell_size), sleep.moves.data(), sleep.mark.data()});
+    agree_on(exec, sleep, sleep.mark);
     for (int ring = 0; ring < waking_rings; ++ring)
     {
         for_each(exec, "widen waking", bodies.count,
                  WidenMarks{bodies, sleep.pairs.view(), mark_wakes + ring, sleep.mark.data()});
+        agree_on(exec, sleep, sleep.mark);
     }
-    constexpr int width = sizeof(Woken) / sizeof(double);
-    pairs.measure.resize(width * bodies.count + width);
-    double* sum = pairs.measure.data() + width * bodies.count;
-    for_each(
-        exec, "wake bodies", bodies.count,
-        WakeBody{bodies, sleep.rule, sleep.bed.data(), sleep.mark.data(), sleep.rest_watch(), pairs.measure.data()});
-    sum_rows(exec, pairs.measure.data(), bodies.count, width, sum);
-    const auto woken = read(exec, reinterpret_cast<const Woken*>(sum));
+    const auto wake  = [&](double* rows)
+    { return WakeBody{bodies, sleep.rule, sleep.bed.data(), sleep.mark.data(), sleep.rest_watch(), rows}; };
+    const auto woken = sum_over_bodies<Woken>(exec, pairs, bodies.count, "wake bodies", wake);
     sleep.change     = sleep.change || woken.bodies > 0;
     sleep.woken      = sleep.woken || woken.in_sand > 0;
 }
@@ -300,9 +338,11 @@ void settle_sleepers(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bod
 template<class Exec>
 void hold_sleepers(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
-    SleepingBodies<Exec>& sleep = pairs.sleep;
+    SleepingBodies<Exec>&   sleep = pairs.sleep;
+    const sleeping::SumHeld all{bodies, sleep.pairs.view(), sleep.sand.data()};
+    sleeping::share_sums(exec, sleep, "share what holds bodies", all);
     for_each(exec, "hold bodies", bodies.count,
-             sleeping::HoldBody{bodies, sleep.pairs.view(), sleep.sand.data(), sleep.clock.held, sleep.watch.data()});
+             sleeping::HoldBody{bodies, all, sleep.shared(), sleep.clock.held, sleep.watch.data()});
     sleep.clock.held = 0;
 }
 
@@ -311,13 +351,30 @@ void resume_sleep(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 {
     sleeping::order_contacts(exec, pairs, bodies);
     sleeping::weigh(exec, pairs, bodies);
+    pairs.sleep.change = false;
     if (pairs.of_body.first.size() > 0) { list_moved_bodies(exec, pairs, bodies, {}); }
+}
+
+template<class Exec>
+void renumber_sleeping_pairs(const Exec& exec, Pairs<Exec>& pairs, const Array<Exec, std::int32_t>& row,
+                             std::int64_t rows)
+{
+    using namespace record_steps;
+    SleepingPairs<Exec>&      kept = pairs.sleep.pairs;
+    const NewRows             now{row.size(), rows, row.data()};
+    Array<Exec, std::int32_t> left(exec, "sleeping pairs left");
+    select(exec, "sleeping pairs left", kept.key.size(), IsLeft{now, kept.key.data()}, pairs.search.found, pairs.sort,
+           left);
+    if (left.size() < kept.key.size()) { sleeping::take_rows(exec, pairs, left); }
+    for_each(exec, "renumber sleeping pairs", left.size(), Renumber{now, kept.key.data()});
+    pairs.sleep.change = true;
 }
 
 template<class Exec>
 void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const OutsideWrenches& outside)
 {
-    select(exec, "bodies of substeps", bodies.count, sleeping::IsMoved{bodies, pairs.view(), outside},
+    select(exec, "bodies of substeps", bodies.count,
+           sleeping::IsMoved{bodies, pairs.view(), outside, pairs.sleep.shared()},
            pairs.search.found, pairs.sort, pairs.sleep.moved);
 }
 
@@ -332,6 +389,8 @@ void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& b
     template void       settle_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                 \
     template void       hold_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                   \
     template void       resume_sleep(const Exec&, Pairs<Exec>&, const BodiesView&);                                    \
+    template void       renumber_sleeping_pairs(const Exec&, Pairs<Exec>&, const Array<Exec, std::int32_t>&,           \
+                                                std::int64_t);                                                         \
     template void       list_moved_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const OutsideWrenches&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

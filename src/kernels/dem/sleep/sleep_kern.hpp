@@ -53,7 +53,7 @@ TREAD_HD bool is_moving(const BodiesView& bodies, const std::int32_t* moves, std
     return !bodies.is_asleep(b) && moves[b] != 0;
 }
 
-/// Decides who falls asleep or wakes; `row`: whether b wakes, may fall asleep, is awake.
+/// Marks who falls asleep or wakes.
 struct LookAtBody
 {
     BodiesView          bodies;
@@ -66,7 +66,6 @@ struct LookAtBody
     const std::int32_t* bed; ///< SandBed of each body; null if no sand sleeps beside bodies
     SleepWatch*         watch;
     std::int32_t*       mark;
-    double*             rows; ///< [bodies x 3]
 
     TREAD_HD void operator()(std::int64_t b) const
     {
@@ -74,9 +73,6 @@ struct LookAtBody
         mark[b] = mark_none;
         if (sleeps && wakes(b)) { mark[b] = mark_wakes; }
         if (may && !sleeps && is_tired(b)) { mark[b] = mark_tired; }
-        rows[3 * b]     = mark[b] == mark_wakes ? 1 : 0;
-        rows[3 * b + 1] = mark[b] == mark_tired ? 1 : 0;
-        rows[3 * b + 2] = may && !sleeps ? 1 : 0;
     }
 
 private:
@@ -127,7 +123,40 @@ private:
     }
 };
 
-/// Marks a body that follows its bed; `row` as that of LookAtBody.
+/// Writes whether a body of this rank wakes, may fall asleep, is awake (SleepCount).
+struct CountMark
+{
+    BodiesView          bodies;
+    std::int64_t        first; ///< BodyRestRule::first
+    const std::int32_t* mark;
+    double*             rows; ///< [bodies x 3]
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        const bool counts = bodies.is_owned(b);
+        rows[3 * b]       = counts && mark[b] > mark_none ? 1 : 0;
+        rows[3 * b + 1]   = counts && mark[b] == mark_tired ? 1 : 0;
+        rows[3 * b + 2]   = counts && b >= first && !bodies.is_asleep(b) ? 1 : 0;
+    }
+};
+
+struct ShareMark
+{
+    SharedView          shared;
+    const std::int32_t* mark;
+
+    TREAD_HD void operator()(std::int64_t i) const { shared.mark[i] = mark[shared.body[i]]; }
+};
+
+struct TakeMark
+{
+    SharedView    shared;
+    std::int32_t* mark;
+
+    TREAD_HD void operator()(std::int64_t i) const { mark[shared.body[i]] = mark_of_all(shared, i); }
+};
+
+/// Marks a body that follows its bed.
 struct FollowBed
 {
     BodiesView          bodies;
@@ -136,7 +165,6 @@ struct FollowBed
     const std::int32_t* next;
     std::int32_t*       bed;
     std::int32_t*       mark;
-    double*             rows; ///< [bodies x 3]
 
     TREAD_HD void operator()(std::int64_t b) const
     {
@@ -145,9 +173,6 @@ struct FollowBed
         const bool tired = may && !sleeps && next[b] == bed_asleep && quiet[b] >= rule.rest;
         bed[b]           = wakes ? bed_awake : next[b]; // points that still sleep are in no awake page
         mark[b]          = wakes ? mark_wakes_calm : tired ? mark_tired : mark_none;
-        rows[3 * b]      = wakes ? 1 : 0;
-        rows[3 * b + 1]  = tired ? 1 : 0;
-        rows[3 * b + 2]  = may && !sleeps ? 1 : 0;
     }
 };
 
@@ -167,8 +192,11 @@ struct StopBody
         const Vec3<double> spin     = rotation.transpose() * bodies.angular_velocity[b];
         const Vec3<double> momentum = bodies.mass[b] * bodies.velocity[b];
         const double kinetic = 0.5 * (momentum.dot(bodies.velocity[b]) + spin.dot(full(bodies.inertia[b]) * spin));
-        totals[b].holding_impulse -= momentum;
-        totals[b].holding_work -= kinetic + 0.5 * substep * gravity.dot(momentum);
+        if (bodies.is_owned(b))
+        {
+            totals[b].holding_impulse -= momentum;
+            totals[b].holding_work -= kinetic + 0.5 * substep * gravity.dot(momentum);
+        }
         bodies.velocity[b]         = Vec3<double>::Zero();
         bodies.angular_velocity[b] = Vec3<double>::Zero();
         bodies.asleep[b]           = 1;
@@ -190,12 +218,37 @@ struct BookFriction
     }
 };
 
+/// Sums the listed contacts of a body: `pairs`.force is their sum, and `pairs`.stiffness that of their magnitudes, N.
+struct SumLoads
+{
+    PairsView pairs;
+
+    TREAD_HD ContactWrench operator()(std::int64_t b) const
+    {
+        ContactWrench sum = ContactWrench::zero();
+        for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p) { add(pairs.answers.force[p], sum); }
+        for (std::int32_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i)
+        {
+            add(pairs.answers.second_force[i], sum);
+        }
+        return sum;
+    }
+
+private:
+    TREAD_HD static void add(const Vec3<double>& force, ContactWrench& sum)
+    {
+        sum.force += force;
+        sum.stiffness += force.norm();
+    }
+};
+
 /// Begins the watch over the load of a body that has just fallen asleep. What it carries is half the sum of all forces
 /// that hold it in balance: for a rock on a floor its weight.
 struct BeginWatch
 {
     BodiesView    bodies;
-    PairsView     pairs;
+    SumLoads      loads;
+    SharedView    shared;
     double        share; ///< of the carried load, for the limit
     Vec3<double>  gravity;
     SleepWatch*   watch;
@@ -204,27 +257,25 @@ struct BeginWatch
     TREAD_HD void operator()(std::int64_t b) const
     {
         if (mark[b] != mark_tired) { return; }
-        mark[b]              = mark_none;
-        Vec3<double> between = Vec3<double>::Zero();
-        double       carried = bodies.mass[b] * gravity.norm();
-        for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p)
-        {
-            add(pairs.answers.force[p], between, carried);
-        }
-        for (std::int32_t i = pairs.second[b]; i < pairs.second[b + 1]; ++i)
-        {
-            add(pairs.answers.second_force[i], between, carried);
-        }
-        carried += (bodies.force[b] - between).norm(); // of sand
-        const Vec3<double> zero = Vec3<double>::Zero();
-        watch[b]                = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
+        mark[b]                     = mark_none;
+        const ContactWrench between = shared.is_shared(b) ? wrench_of(shared, shared.place[b]).pairs : loads(b);
+        const double        of_sand = (bodies.force[b] - between.force).norm();
+        const double        carried = bodies.mass[b] * gravity.norm() + between.stiffness + of_sand;
+        const Vec3<double>  zero    = Vec3<double>::Zero();
+        watch[b]                    = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
     }
+};
 
-private:
-    TREAD_HD static void add(const Vec3<double>& force, Vec3<double>& sum, double& carried)
+/// Writes this rank's share of a sum over the contacts of each shared body. Sum: SumLoads or SumHeld.
+template<class Sum>
+struct ShareSum
+{
+    SharedView shared;
+    Sum        sum;
+
+    TREAD_HD void operator()(std::int64_t i) const
     {
-        sum += force;
-        carried += force.norm();
+        shared.wrench[i] = {ContactWrench::zero(), sum(shared.body[i])};
     }
 };
 
@@ -318,9 +369,9 @@ struct WakeBody
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const bool wakes = mark[b] >= mark_wakes, calm = mark[b] == mark_wakes_calm;
-        woken[2 * b]     = wakes ? 1 : 0;
-        woken[2 * b + 1] = wakes && !calm && bed != nullptr && bed[b] == bed_asleep ? 1 : 0;
+        const bool wakes = mark[b] > mark_none, calm = mark[b] == mark_wakes_calm, counts = wakes && bodies.is_owned(b);
+        woken[2 * b]     = counts ? 1 : 0;
+        woken[2 * b + 1] = counts && !calm && bed != nullptr && bed[b] == bed_asleep ? 1 : 0;
         if (wakes)
         {
             bodies.asleep[b] = 0;
@@ -331,17 +382,14 @@ struct WakeBody
 };
 
 /// Sums the contacts of a sleeper with other sleepers, walls and sleeping sand.
-struct HoldBody
+struct SumHeld
 {
     BodiesView           bodies;
     SleepingPairsView    pairs;
     const ContactWrench* sand; ///< null if no sand sleeps beside bodies
-    double               held; ///< s, for which the last sum was held
-    SleepWatch*          watch;
 
-    TREAD_HD void operator()(std::int64_t b) const
+    TREAD_HD ContactWrench operator()(std::int64_t b) const
     {
-        if (!bodies.is_asleep(b)) { return; }
         ContactWrench sum = sand != nullptr ? sand[b] : ContactWrench::zero();
         for (std::int32_t p = pairs.first[b]; p < pairs.first[b + 1]; ++p)
         {
@@ -353,6 +401,22 @@ struct HoldBody
             const HeldContact& contact = pairs.contact[pairs.by_second[i]];
             sum                        = sum + ContactWrench{-contact.force, contact.torque_b, contact.stiffness};
         }
+        return sum;
+    }
+};
+
+struct HoldBody
+{
+    BodiesView  bodies;
+    SumHeld     all;
+    SharedView  shared;
+    double      held; ///< s, for which the last sum was held
+    SleepWatch* watch;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (!bodies.is_asleep(b)) { return; }
+        const ContactWrench sum = shared.is_shared(b) ? wrench_of(shared, shared.place[b]).pairs : all(b);
         watch[b].impulse += held * watch[b].held.force;
         watch[b].angular_impulse += held * watch[b].held.torque;
         watch[b].held       = sum;
@@ -362,16 +426,17 @@ struct HoldBody
     }
 };
 
-/// Whether the substeps compute a body.
+/// Whether the substeps compute a body. What touches a shared sleeper may be on another rank.
 struct IsMoved
 {
     BodiesView      bodies;
     PairsView       pairs;
     OutsideWrenches outside;
+    SharedView      shared;
 
     TREAD_HD bool operator()(std::int64_t b) const
     {
-        return !bodies.is_asleep(b) || pairs.first[b] < pairs.first[b + 1] || pairs.second[b] < pairs.second[b + 1] ||
+        return !bodies.is_asleep(b) || shared.is_shared(b) || pairs.first[b] < pairs.first[b + 1] || pairs.second[b] < pairs.second[b + 1] ||
                (outside.run != nullptr && outside.run[b] >= 0);
     }
 };
@@ -390,7 +455,7 @@ struct WriteSleeper
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const bool sleeps = bodies.is_asleep(b);
+        const bool sleeps = bodies.is_asleep(b) && bodies.is_owned(b);
         rows[2 * b]       = sleeps ? 1 : 0;
         rows[2 * b + 1]   = sleeps ? bodies.mass[b] : 0.0;
     }

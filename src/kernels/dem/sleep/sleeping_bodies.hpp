@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
+
 #include "backend/array.hpp"
 #include "kernels/dem/contact/patch_kern.hpp"
 #include "kernels/dem/contact/rolling_kern.hpp"
-#include "kernels/dem/motion/outside.hpp"
+#include "kernels/dem/motion/shared.hpp"
 
 // Bodies that sleep: they are held at rest, and pairs of two of them, or of one and a wall, are kept apart from the
 // list of the substeps (sleep.hpp).
@@ -111,13 +113,13 @@ struct SleepingPairs
 /// before the next look.
 inline constexpr int waking_rings = 2; // assumed
 
-/// Marks of bodies at a look.
+/// Marks of bodies at a look. Of the marks that ranks have for one body, the largest holds.
 enum SleepMark : std::int32_t
 {
+    mark_tired      = -1, ///< falls asleep
     mark_none       = 0,
-    mark_wakes      = 1,                             ///< to 1 + waking_rings: by distance in contacts
-    mark_wakes_calm = mark_wakes + waking_rings + 1, ///< wakes alone and at rest, with the sand around it
-    mark_tired      = -1,                            ///< falls asleep
+    mark_wakes_calm = 1, ///< wakes alone and at rest, with the sand around it
+    mark_wakes      = 2, ///< to 2 + waking_rings: by distance in contacts
 };
 
 /// Sand that a body may touch.
@@ -137,6 +139,23 @@ struct SleepClock
     double weight = 0; ///< kg s, mass of the sleepers times time, since the last report
     double slept  = 0; ///< s, summed over the sleepers, since the run began
     double lived  = 0; ///< since the run began
+};
+
+/// What several ranks do together for the sleep of bodies, so that all holders of a body decide alike. Collective.
+template<class Exec>
+class RanksOfSleepers
+{
+public:
+    virtual ~RanksOfSleepers() = default;
+
+    /// Bodies that this rank shares with others, and its shares.
+    virtual SharedView shared() = 0;
+
+    virtual void exchange_marks()    = 0;
+    virtual void exchange_wrenches() = 0;
+
+    /// Sums numbers over ranks, in rank order.
+    virtual void add(double* values, int count) const = 0;
 };
 
 /// Data of the sleep of bodies; all arrays are empty where no body may sleep. Flags are in BodiesView::asleep.
@@ -164,9 +183,11 @@ struct SleepingBodies
     bool         woken  = false; ///< whether some body in sleeping sand woke since sand last followed
     BodyRestRule rule{};
     SleepClock   clock;
-    double       count  = 0; ///< number of sleepers
-    double       mass   = 0; ///< kg, of all sleepers
-    double       energy = 0; ///< J, elastic, of pairs of sleepers
+    double       count  = 0; ///< number of sleepers of all ranks
+    double       mass   = 0; ///< kg, of all of them
+    double       energy = 0; ///< J, elastic, of this rank's pairs of sleepers
+
+    std::unique_ptr<RanksOfSleepers<Exec>> ranks; ///< null on one rank
 
     Array<Exec, Vec3<double>> position;    ///< RestWatch::position
     Array<Exec, Quat>         orientation; ///< RestWatch::orientation
@@ -192,6 +213,26 @@ struct SleepingBodies
         clock.weight += time * mass;
         clock.slept += time * count;
         clock.lived += time;
+    }
+
+    /// Bodies that this rank shares with others.
+    SharedView shared() const { return ranks ? ranks->shared() : SharedView{}; }
+
+    /// Sums numbers over ranks.
+    void add_ranks(double* values, int number) const
+    {
+        if (ranks) { ranks->add(values, number); }
+    }
+
+    /// Calls f(array) for each array by row that a body takes along when it changes ranks.
+    template<class F>
+    void for_each_state(F f)
+    {
+        f(position);
+        f(orientation);
+        f(quiet);
+        f(moves);
+        f(watch);
     }
 
     /// List of the bodies that substeps compute; null: all.
