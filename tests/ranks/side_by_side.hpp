@@ -93,7 +93,7 @@ auto errors_of(Experiment<Exec>& experiment, const solver::Census& now)
 template<class Exec>
 int compare_holders(solver::DemSolver<Exec>& rigid)
 {
-    using State                          = std::array<double, 22>; // number, place, motion, force, how far it may move
+    using State                          = std::array<double, 23>; // number, place, motion, force, allowed way, sleep
     const std::vector<std::int32_t> role = rigid.bodies().role.to_host();
     const auto position = rigid.bodies().position.to_host(), velocity = rigid.bodies().velocity.to_host(),
                spin = rigid.bodies().angular_velocity.to_host(), force = rigid.bodies().force.to_host(),
@@ -101,6 +101,8 @@ int compare_holders(solver::DemSolver<Exec>& rigid)
     const std::vector<Quat>   turned    = rigid.bodies().orientation.to_host();
     const std::vector<double> stiffness = rigid.bodies().stiffness.to_host();
     const std::vector<double> allowed   = rigid.pairs().displacement.allowed.to_host();
+    std::vector<std::int32_t> asleep    = rigid.bodies().asleep.to_host();
+    asleep.resize(role.size(), 0);
     std::vector<State>        held;
     for (std::size_t row = 0; row < role.size(); ++row)
     {
@@ -114,7 +116,8 @@ int compare_holders(solver::DemSolver<Exec>& rigid)
         }
         to    = std::copy(turned[row].coeffs().data(), turned[row].coeffs().data() + 4, to);
         *to++ = stiffness[row];
-        *to   = allowed[row];
+        *to++ = allowed[row];
+        *to   = asleep[row];
     }
     std::map<double, State> of_first;
     int                     ghosts = 0;
@@ -164,6 +167,14 @@ public:
     /// Bodies of the run on all ranks, on every rank. Collective.
     io::BodyFields bodies_together() { return io::gathered(world(), together.simulation().body_fields()); }
 
+    /// Gives pages other owners, as a repartition does.
+    template<class Owner>
+    void give_pages(const Vec3<double>& size, Owner owner)
+    {
+        const OwnedPages pages = pages_of(lattice(), size, owner);
+        decomposition_.owners.assign(pages.key, pages.rank);
+    }
+
     /// Owning rank of a position.
     std::int32_t owner_of(const Vec3<double>& place) const
     {
@@ -183,8 +194,7 @@ private:
     template<class Owner>
     decomp::Decomposition<Exec>* given(const Vec3<double>& size, Owner owner)
     {
-        const OwnedPages pages = pages_of(lattice(), size, owner);
-        decomposition_.owners.assign(pages.key, pages.rank);
+        give_pages(size, owner);
         return &decomposition_;
     }
 

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "physics/rock_scenes.hpp"
+#include "side_by_side.hpp"
+
+// Rocks that sleep on several ranks, compared with the same on one (docs/sleep.md#rocks-that-sleep).
+namespace rock_sleep_ranks_test
+{
+
+using namespace tread;
+
+const Vec3<double> size(1.2, 0.12, 1.2); ///< m
+
+/// Two rows of spheres that roll to the wall on the right and lean against it, so that each presses its neighbours, and
+/// a ball that falls on them when they sleep.
+const std::string rows_text = R"(
+title = "rows of spheres"
+[domain]
+size    = [1.2, 0.12, 1.2]
+gravity = [10.0, 0.0, -20.0]
+walls   = { x = "slip", y = "slip", bottom = "fixed", top = "open" }
+[time]
+dt       = 5e-4
+substeps = 4
+[sleep]
+rock_speed = 0.05
+rock_rest  = 0.02
+[[material]]
+name    = "stone"
+model   = "elastic"
+density = 2700.0
+young   = 1e7
+poisson = 0.25
+[[contact]]
+between          = ["stone", "stone"]
+friction         = 0.5
+restitution      = 0.1
+rolling_friction = 0.1
+[[contact]]
+between          = ["stone", "wall"]
+friction         = 0.5
+restitution      = 0.1
+rolling_friction = 0.1
+[[shape]]
+name      = "sphere"
+generate  = { kind = "sphere", nodes = 42 }
+sdf_cells = 20
+[[rocks]]
+shape     = "sphere"
+material  = "stone"
+count     = 28
+diameter  = 0.05
+placement = "grid"
+region    = { box = [[0.1, 0.0, 0.0], [1.2, 0.12, 0.055]] }
+[[body]]
+name     = "ball"
+shape    = "sphere"
+material = "stone"
+diameter = 0.1
+mass     = 1.0
+position = [0.3, 0.06, 1.1]
+velocity = [-2.0, 0.0, 5.0]
+[[phase]]
+name     = "fall"
+duration = 2.0
+)";
+
+constexpr std::int64_t rocks = 28;
+
+/// Number of sleepers after each step of both runs, which must be the same.
+struct Slept
+{
+    std::int64_t most  = 0;
+    std::int64_t woken = 0; ///< sum over steps
+    std::int64_t last  = 0;
+};
+
+template<class Exec>
+class RocksAsleepOnRanks : public test::BackendTest<Exec>
+{
+protected:
+    static int ranks() { return test::world().size(); }
+
+    static void advance(test::SideBySide<Exec>& run, int steps, Slept& slept)
+    {
+        for (int step = 0; step < steps; ++step)
+        {
+            run.advance();
+            const std::int64_t one = run.alone.simulation().rocks_asleep(),
+                               all = run.together.simulation().rocks_asleep();
+            ASSERT_EQ(one, all) << "step " << step;
+            slept.most = std::max(slept.most, one);
+            slept.woken += std::max<std::int64_t>(slept.last - one, 0);
+            slept.last = one;
+        }
+    }
+
+    /// Places and motion agree to `bound` (m, m/s), balances of energy and momentum to `balance`; all holders of a rock
+    /// have its state to the bit.
+    static void expect_as_alone(test::SideBySide<Exec>& run, const Slept& slept, double bound, double balance)
+    {
+        const int            ghosts = test::compare_holders(run.together.simulation().rigid());
+        const io::BodyFields one = run.alone.simulation().body_fields(), all = run.bodies_together();
+        const double         places = test::difference(one.position, all.position, 1.0),
+                     speeds         = test::difference(one.velocity, all.velocity, 1.0);
+        std::printf("at most %d rocks slept, %d woke, %d sleep at the end; %d ghosts; places differ by %.3g m, "
+                    "velocities by %.3g m/s, bound %.3g\n",
+                    static_cast<int>(slept.most), static_cast<int>(slept.woken), static_cast<int>(slept.last), ghosts,
+                    places, speeds, bound);
+        EXPECT_LT(places, bound);
+        EXPECT_LT(speeds, bound);
+        const solver::Census of_one = run.alone.simulation().census(), of_all = run.together.simulation().census();
+        const auto           alone = test::errors_of(run.alone, of_one), together = test::errors_of(run.together, of_all);
+        std::printf("energy unaccounted %.3g, alone %.3g; momentum %.3g, %.3g\n", together.energy, alone.energy,
+                    together.momentum, alone.momentum);
+        EXPECT_NEAR(alone.energy, together.energy, balance);
+        EXPECT_NEAR(alone.momentum, together.momentum, balance);
+        EXPECT_NEAR(run.alone.simulation().mean_rocks_asleep().value(),
+                    run.together.simulation().mean_rocks_asleep().value(), 1e-12);
+    }
+};
+TYPED_TEST_SUITE(RocksAsleepOnRanks, test::Backends, test::BackendNames);
+
+/// Rocks press each other over the borders while they sleep, and wake where the ball falls. Bounds: rounding of sums in
+/// another order, which the impact multiplies.
+TYPED_TEST(RocksAsleepOnRanks, ABallFallsOnThem)
+{
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(rows_text), size,
+                                    test::slabs(size[0], this->ranks()));
+    Slept                       slept;
+    this->advance(run, 1200, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_as_alone(run, slept, 1e-12, 1e-12);
+    EXPECT_EQ(slept.last, rocks);
+    this->advance(run, 300, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_as_alone(run, slept, 1e-8, 1e-9);
+    EXPECT_LT(slept.last, rocks) << "the ball wakes some";
+}
+
+/// What sleeps goes to another rank with its page: asleep, with its load and its contacts.
+TYPED_TEST(RocksAsleepOnRanks, SleepersChangeTheirOwner)
+{
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(rows_text), size,
+                                    test::slabs(size[0], this->ranks()));
+    Slept                       slept;
+    this->advance(run, 1100, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    run.give_pages(size, test::quarters({0.8, 0.06, 0}, this->ranks()));
+    run.alone.simulation().rigid().forget_list(); // ranks list pairs anew, too
+    this->advance(run, 100, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_as_alone(run, slept, 1e-12, 1e-12);
+    EXPECT_EQ(slept.last, rocks);
+    this->advance(run, 300, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_as_alone(run, slept, 1e-8, 1e-9);
+    EXPECT_LT(slept.last, rocks) << "the ball wakes some";
+}
+
+/// Rocks asleep on sand that is computed, which crosses the border below them.
+TYPED_TEST(RocksAsleepOnRanks, OnSand)
+{
+    const std::string text = std::string(test::sand_text) + "[numerics]\nprecision = \"double\"\n" +
+                             test::stone(1e7, 0.5, 0.5) +
+                             "[[shape]]\nname = \"pebble\"\ngenerate = { kind = \"sphere\", nodes = 42 }\nsdf_cells = 20\n"
+                             "[[rocks]]\nshape = \"pebble\"\nmaterial = \"stone\"\ncount = 4\ndiameter = 0.1\n"
+                             "placement = \"grid\"\nregion = { box = [[0.0, 0.0, 0.23], [0.4, 0.4, 0.35]] }\n" +
+                             test::phase("lie", 0, 1.0) + "[sleep]\nrock_speed = 0.05\nrock_rest = 0.02\n";
+    const Vec3<double>          box(0.4, 0.4, 0.6);
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), box, test::slabs(box[0], this->ranks()));
+    Slept                       slept;
+    this->advance(run, 400, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_as_alone(run, slept, 1e-8, 1e-8);
+    EXPECT_GT(slept.most, 0);
+}
+
+} // namespace rock_sleep_ranks_test
