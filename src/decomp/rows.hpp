@@ -41,7 +41,7 @@ Column planes(T* data, std::int64_t stride, int components)
     return {reinterpret_cast<std::byte*>(data), 1, stride, static_cast<std::int32_t>(sizeof(T)), components};
 }
 
-constexpr int most_columns = 25;
+constexpr int most_columns = 26;
 
 /// The columns that make up a packed row.
 struct Columns

@@ -129,10 +129,6 @@ void require_ranks_can(const Communicator& communicator, const scene::Scene& sce
         decomp::require_single_rank(communicator, "scenes with softening_length run");
     }
     if (!scene.grid.refine.empty()) { decomp::require_single_rank(communicator, "scenes with [grid] refine run"); }
-    if (scene.sleep.rock_speed && scene.sleep.distance)
-    {
-        decomp::require_single_rank(communicator, "scenes with sleep.rock_speed and sleep.distance run");
-    }
 }
 
 template<class Exec, class Real>

@@ -182,7 +182,14 @@ decomp::PageLoads Simulation<Exec, Real>::page_loads() const
 template<class Exec, class Real>
 void Simulation<Exec, Real>::repartition_pages()
 {
-    if (balance_->repartition(page_loads()) && sand_) { sand_->follow_owners(); }
+    if (balance_->repartition(page_loads()) && sand_) { follow_owners(); }
+}
+
+template<class Exec, class Real>
+void Simulation<Exec, Real>::follow_owners()
+{
+    const std::int64_t moved = sand_->follow_owners();
+    if (moved > 0 && sleep_follower().move) { coupling_->send_sleeping_after(sand_->migrated_out()); }
 }
 
 /// Serves a state from another number of ranks: the present owners of pages were chosen for the scene's start.
@@ -211,6 +218,7 @@ void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
     {
         clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(span); });
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
+        follow_sleepers();
         wake_sand_near_rocks(clock);
     }
     if (!coupling_) { return; }
@@ -378,8 +386,9 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
         const ContactPartners partners{world_.bodies.size(), static_cast<std::size_t>(sand_->view().count),
                                        world_.sand.size(), scene_.materials.size()};
         coupling_->transfer(file, rigid_->view(), partners);
-        if (rigid_->sleepers().sand.size() > 0) { coupling_->transfer_sleep(file, rigid_->sleepers(), partners); }
+        if (rigid_->sleepers().strewn) { coupling_->transfer_sleep(file, rigid_->view(), rigid_->sleepers(), partners); }
     }
+    if (file.loads() && rigid_) { sleepers_version_ = rigid_->partition_version(); }
     transfer_contacts(file);
     solver::transfer(file, measuring_, last_, damping_);
     ledger_->transfer(file);

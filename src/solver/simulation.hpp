@@ -55,6 +55,10 @@ public:
     /// The scene must have sand.
     MpmSolver<Exec, Real>& sand() { return *sand_; }
 
+    /// Call after pages have got other owners, with no step since the last census: sleeping points go to them at once,
+    /// with their contacts, and awake ones when they are sorted next. Collective.
+    void follow_owners();
+
     /// The scene must have bodies.
     DemSolver<Exec>& rigid() { return *rigid_; }
 
@@ -151,6 +155,7 @@ private:
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
     void wake_sand_near_rocks(StageClock& clock);
+    void follow_sleepers();
 
     /// Bodies that keep the sand around them awake.
     std::vector<BodyReach> sand_wakers();
@@ -194,6 +199,7 @@ private:
     Vec3<double>                 gravity_;         ///< m/s2
     std::int64_t                 phase_   = -1;    ///< that has begun here; -1: none
     bool                         wakes_   = false; ///< whether all sand wakes in the next step
+    std::int64_t                 sleepers_version_ = 0; ///< partition version for which follow_sleepers has been called
     double                       damping_ = 0;
     Measuring                    measuring_;
     LastStep                     last_;

@@ -29,7 +29,7 @@ void Simulation<Exec, Real>::update_sleeping_pages(StageClock& clock)
 template<class Exec, class Real>
 typename MpmSolver<Exec, Real>::SleepFollower Simulation<Exec, Real>::sleep_follower()
 {
-    if (!coupling_ || rigid_->sleepers().sand.size() == 0) { return {}; }
+    if (!coupling_ || !rigid_->sleepers().strewn) { return {}; }
     const auto choose = [this](const contact::SandPages& pages)
     {
         contact::find_beds(exec_, rigid_->view(), rigid_->templates(), pages, scene_.grid.spacing,
@@ -39,6 +39,7 @@ typename MpmSolver<Exec, Real>::SleepFollower Simulation<Exec, Real>::sleep_foll
     const auto move = [this](const SleepChange<Real>& change)
     {
         coupling_->follow_sleep(change, rigid_->view(), rigid_->sleepers());
+        rigid_->renew_watches();
         if (rigid_->has_list()) { rigid_->hold_sleepers(); } // else the next list does
     };
     return {choose, move};
@@ -52,17 +53,28 @@ std::vector<BodyReach> Simulation<Exec, Real>::sand_wakers()
                                  {scene_.sleep.distance.value(), edge, scene_.sleep.rest, gravity_.norm()});
 }
 
+/// A rank learns what sleeping sand presses rocks with once it has rows for them.
+template<class Exec, class Real>
+void Simulation<Exec, Real>::follow_sleepers()
+{
+    if (!sleep_follower().move || rigid_->partition_version() == sleepers_version_) { return; }
+    sleepers_version_ = rigid_->partition_version();
+    coupling_->sum_asleep(rigid_->view(), rigid_->sleepers());
+    rigid_->hold_sleepers();
+}
+
 /// Sand beside a rock that has just woken is awake before the rock can move.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::wake_sand_near_rocks(StageClock& clock)
 {
-    if (!std::exchange(rigid_->sleepers().woken, false) || !sand_ || sand_->asleep() == 0) { return; }
+    if (!std::exchange(rigid_->sleepers().woken, false)) { return; }
     clock.run(exec_, stage::sleep, [&] { sand_->wake_near(sand_wakers(), sleep_follower()); });
 }
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void                                          Simulation<Exec, Real>::update_sleeping_pages(StageClock&); \
     template void                                          Simulation<Exec, Real>::wake_sand_near_rocks(StageClock&);  \
+    template void                                          Simulation<Exec, Real>::follow_sleepers();                  \
     template typename MpmSolver<Exec, Real>::SleepFollower Simulation<Exec, Real>::sleep_follower();                   \
     template std::vector<BodyReach>                        Simulation<Exec, Real>::sand_wakers()
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)

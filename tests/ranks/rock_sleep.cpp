@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "physics/rock_scenes.hpp"
+#include "physics/strewn_bed.hpp"
 #include "side_by_side.hpp"
 
 // Rocks that sleep on several ranks, compared with the same on one (docs/sleep.md#rocks-that-sleep).
@@ -175,6 +175,96 @@ TYPED_TEST(RocksAsleepOnRanks, OnSand)
     if (::testing::Test::HasFailure()) { return; }
     this->expect_as_alone(run, slept, 1e-8, 1e-8);
     EXPECT_GT(slept.most, 0);
+}
+
+/// A bed of sand and rocks that sleeps, and a ball that falls on it in the middle.
+const Vec3<double> bed_size(2.4, 0.4, 1.6); ///< m
+const std::string  bed_text = test::long_bed + R"(
+[[shape]]
+name      = "sphere"
+generate  = { kind = "sphere", nodes = 42 }
+sdf_cells = 20
+[[body]]
+name     = "ball"
+shape    = "sphere"
+material = "stone"
+diameter = 0.1
+mass     = 1.4
+position = [1.2, 0.2, 1.5]
+)" + test::phase("fall", 0, 2.0) + "[sleep]\ndistance = 0.1\nspeed = 0.05\nrest = 0.02\nrock_speed = 0.05\nrock_rest = 0.02\n";
+
+template<class Exec>
+class StrewnRanks : public RocksAsleepOnRanks<Exec>
+{
+protected:
+    /// Advances both; the same number of points sleeps in each step.
+    static void advance(test::SideBySide<Exec>& run, int steps, Slept& slept)
+    {
+        for (int step = 0; step < steps; ++step)
+        {
+            RocksAsleepOnRanks<Exec>::advance(run, 1, slept);
+            const std::int64_t one = run.alone.simulation().sand().asleep(),
+                               all = test::world().sum(run.together.simulation().sand().asleep());
+            ASSERT_EQ(one, all) << "step " << step;
+            if (::testing::Test::HasFailure()) { return; }
+        }
+    }
+
+    /// Expects that all sleeps.
+    static void expect_all_asleep(test::SideBySide<Exec>& run, const Slept& slept)
+    {
+        EXPECT_EQ(slept.last, 12);
+        EXPECT_EQ(run.alone.simulation().sand().asleep(), run.alone.simulation().sand().count());
+    }
+};
+TYPED_TEST_SUITE(StrewnRanks, test::Backends, test::BackendNames);
+
+/// Rocks lie in sand on both sides of borders; the ball wakes both.
+TYPED_TEST(StrewnRanks, ABallFallsOnTheBed)
+{
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(bed_text), bed_size,
+                                    test::slabs(bed_size[0], this->ranks()));
+    Slept                       slept;
+    this->advance(run, 400, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_all_asleep(run, slept);
+    this->advance(run, 400, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_as_alone(run, slept, 1e-8, 1e-8);
+    EXPECT_GT(slept.woken, 2);
+}
+
+/// Sleeping sand, the rocks in it and their contacts go to other ranks together: what held a rock goes on to hold it.
+TYPED_TEST(StrewnRanks, SleepersChangeTheirOwner)
+{
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(bed_text), bed_size,
+                                    test::slabs(bed_size[0], this->ranks()));
+    Slept                       slept;
+    this->advance(run, 300, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_all_asleep(run, slept);
+    run.alone.simulation().census();
+    run.together.simulation().census();
+    run.give_pages(bed_size, test::quarters({1.5, 0.2, 0}, this->ranks()));
+    run.together.simulation().follow_owners();
+    run.alone.simulation().rigid().forget_list(); // ranks list pairs anew, too
+    this->advance(run, 100, slept);
+    if (::testing::Test::HasFailure()) { return; }
+    this->expect_all_asleep(run, slept);
+    this->expect_as_alone(run, slept, 1e-12, 1e-12);
+
+    std::int64_t fewest = slept.last;
+    for (int step = 0; step < 400; ++step)
+    {
+        run.together.advance();
+        fewest = std::min(fewest, run.together.simulation().rocks_asleep());
+    }
+    const auto errors = test::errors_of(run.together, run.together.simulation().census());
+    EXPECT_LT(fewest, slept.last) << "the ball wakes some";
+    test::report("energy unaccounted", errors.energy, 0, 1e-3, "as the sleep of sand on one rank");
+    test::report("momentum error", errors.momentum, 0, 1e-6, "what holds sleepers is accounted for; fp64");
+    EXPECT_LT(std::abs(errors.energy), 1e-3);
+    EXPECT_LT(errors.momentum, 1e-6);
 }
 
 } // namespace rock_sleep_ranks_test

@@ -37,12 +37,12 @@ struct SleepingContacts
 };
 
 /// Takes the contacts of points that have just fallen asleep with bodies that sleep: points `first` and later of
-/// `asleep`. They are computed once more where the points are, at rest; bodies in `watch` begin a new reference of
-/// their load. The contacts of `contact` must be those of the last step. Returns what friction dissipated by that (J).
+/// `asleep`. They are computed once more where the points are, at rest. Sets loaded[b] to 1 for their bodies. The
+/// contacts of `contact` must be those of the last step. Returns what friction dissipated by that (J).
 template<class Exec, class Real>
 double take_contacts(const Exec& exec, PointContact<Exec>& contact, SleepingContacts<Exec>& sleeping,
                      const mpm::PointsView<Real>& asleep, std::int64_t first, const dem::BodiesView& bodies,
-                     const PointBodyLaw& law, dem::SleepWatch* watch);
+                     const PointBodyLaw& law, std::int32_t* loaded);
 
 /// Gives the records of points that have just woken back to the history of `contact`, for the next search: points
 /// `first` and later of `awake`.
@@ -52,6 +52,7 @@ void return_contacts(const Exec& exec, PointContact<Exec>& contact, SleepingCont
 
 /// Sums the responses by body, press[bodies], and their energy.
 template<class Exec>
-void sum_sleeping(const Exec& exec, SleepingContacts<Exec>& sleeping, Array<Exec, dem::ContactWrench>& press);
+void sum_sleeping(const Exec& exec, SleepingContacts<Exec>& sleeping, const dem::BodiesView& bodies,
+                  Array<Exec, dem::ContactWrench>& press);
 
 } // namespace tread::contact

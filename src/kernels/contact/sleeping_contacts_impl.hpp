@@ -93,7 +93,7 @@ void respond_at_rest(const Exec& exec, PointContact<Exec>& contact, const FallsA
 template<class Exec, class Real>
 double take_contacts(const Exec& exec, PointContact<Exec>& contact, SleepingContacts<Exec>& sleeping,
                      const mpm::PointsView<Real>& asleep, std::int64_t first, const dem::BodiesView& bodies,
-                     const PointBodyLaw& law, dem::SleepWatch* watch)
+                     const PointBodyLaw& law, std::int32_t* loaded)
 {
     using namespace sleeping_steps;
     const std::int64_t count = contact.tangential.size() == 0 ? 0 : contact.candidates.body.size();
@@ -111,7 +111,7 @@ double take_contacts(const Exec& exec, PointContact<Exec>& contact, SleepingCont
     Array<Exec, double> lost(exec, "losses of sleeping contacts", rows + 1);
     for_each(exec, "write sleeping contacts", count,
              WriteRows{contact.contacts(), contact.private_points(), bodies.position, first_row.data(), rows_of(more),
-                       lost.data(), watch});
+                       lost.data(), loaded});
     merge(exec, sleeping, more, scratch);
     sum_rows(exec, lost.data(), rows, 1, lost.data() + rows);
     return read(exec, lost.data() + rows);
@@ -148,12 +148,14 @@ void return_contacts(const Exec& exec, PointContact<Exec>& contact, SleepingCont
 }
 
 template<class Exec>
-void sum_sleeping(const Exec& exec, SleepingContacts<Exec>& sleeping, Array<Exec, dem::ContactWrench>& press)
+void sum_sleeping(const Exec& exec, SleepingContacts<Exec>& sleeping, const dem::BodiesView& bodies,
+                  Array<Exec, dem::ContactWrench>& press)
 {
     using namespace sleeping_steps;
     const std::int64_t count = sleeping.key.size();
-    for_each(exec, "press of sleeping sand", press.size(),
-             SumRows{count, sleeping.key.data(), sleeping.response.data(), press.data()});
+    press.resize(bodies.count);
+    for_each(exec, "press of sleeping sand", bodies.count,
+             SumRows{count, sleeping.key.data(), sleeping.response.data(), bodies.number, press.data()});
     Array<Exec, double> energy(exec, "energies of sleeping contacts", count + 1);
     for_each(exec, "energies of sleeping contacts", count, WriteEnergyOfRow{sleeping.response.data(), energy.data()});
     sum_rows(exec, energy.data(), count, 1, energy.data() + count);
@@ -161,13 +163,14 @@ void sum_sleeping(const Exec& exec, SleepingContacts<Exec>& sleeping, Array<Exec
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template void sum_sleeping(const Exec&, SleepingContacts<Exec>&, Array<Exec, dem::ContactWrench>&)
+    template void sum_sleeping(const Exec&, SleepingContacts<Exec>&, const dem::BodiesView&,                           \
+                               Array<Exec, dem::ContactWrench>&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template double take_contacts(const Exec&, PointContact<Exec>&, SleepingContacts<Exec>&,                           \
                                   const mpm::PointsView<Real>&, std::int64_t, const dem::BodiesView&,                  \
-                                  const PointBodyLaw&, dem::SleepWatch*);                                              \
+                                  const PointBodyLaw&, std::int32_t*);                                                 \
     template void   return_contacts(const Exec&, PointContact<Exec>&, SleepingContacts<Exec>&,                         \
                                     const mpm::PointsView<Real>&, std::int64_t)
 TREAD_FOR_THIS_BACKEND_AND_REALS(TREAD_INSTANTIATE)

@@ -121,7 +121,7 @@ RowsView rows_of(SleepingContacts<Exec>& sleeping)
     return {sleeping.key.data(), sleeping.tangential.data(), sleeping.response.data(), sleeping.material.data()};
 }
 
-/// Writes the rows of a contact that falls asleep; several threads may restart the watch over one body.
+/// Writes the rows of a contact that falls asleep; several threads may mark one body.
 struct WriteRows
 {
     ContactsView        contacts;
@@ -130,7 +130,7 @@ struct WriteRows
     const std::int32_t* first; ///< [count + 1], after the scan
     RowsView            rows;
     double*             dissipated; ///< J, of each row
-    dem::SleepWatch*    watch;
+    std::int32_t*       loaded;     ///< 1: of each body with such a contact
 
     TREAD_HD void operator()(std::int64_t c) const
     {
@@ -152,7 +152,7 @@ struct WriteRows
             lost                 = 0;
             ++row;
         }
-        watch[b].windows = 0;
+        loaded[b] = 1;
     }
 };
 
@@ -235,13 +235,15 @@ struct SumRows
     std::int64_t         count;
     const std::uint64_t* key;
     const HeldSand*      response;
+    const std::int32_t*  number; ///< of each body in the scene; null: that of its row
     dem::ContactWrench*  press;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const auto         body = static_cast<std::uint64_t>(b);
-        dem::ContactWrench sum  = dem::ContactWrench::zero();
-        for (std::int64_t row = lower_bound(key, count, body << 36); row < count && body_of(key[row]) == b; ++row)
+        const std::int64_t body  = number != nullptr ? number[b] : b;
+        const auto         first = static_cast<std::uint64_t>(body) << 36;
+        dem::ContactWrench sum   = dem::ContactWrench::zero();
+        for (std::int64_t row = lower_bound(key, count, first); row < count && body_of(key[row]) == body; ++row)
         {
             sum = sum + response[row].wrench;
         }

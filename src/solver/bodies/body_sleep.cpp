@@ -75,17 +75,15 @@ struct RowTransfer
 template<class Exec>
 void begin_sleep(BodyState<Exec>& state)
 {
-    const scene::Sleep& sleep = state.scene.sleep;
+    const scene::Sleep&        sleep = state.scene.sleep;
+    dem::SleepingBodies<Exec>& all   = state.pairs.sleep;
+    all.strewn                       = sleep.distance && state.world.sand.size() > 0;
     dem::begin_sleep(state.exec, state.pairs, state.bodies,
                      {sleep.rock_speed.value(), sleep.rock_rest, sleep.rock_load, state.named()});
-    if (state.ranks) { state.pairs.sleep.ranks = std::make_unique<SharedSleep<Exec>>(*state.ranks); }
-    if (!sleep.distance || state.world.sand.size() == 0) { return; }
-    dem::SleepingBodies<Exec>& all   = state.pairs.sleep;
-    const std::int64_t         count = state.bodies.position.size();
-    all.sand.resize(count);
-    all.sand.fill_zero();
-    all.next_bed.resize(count);
-    all.bed.assign(std::vector<std::int32_t>(static_cast<std::size_t>(count), dem::bed_awake));
+    if (state.ranks) { all.ranks = std::make_unique<SharedSleep<Exec>>(*state.ranks); }
+    if (!all.strewn) { return; }
+    const auto rows = static_cast<std::size_t>(state.bodies.position.size());
+    all.bed.assign(std::vector<std::int32_t>(rows, dem::bed_awake));
 }
 
 template<class Exec>
@@ -150,16 +148,18 @@ void transfer_sleep(BodyState<Exec>& state, SleepSettings& settings, StateFile& 
     transfer("rock_sleep/orientation", sleep.orientation, accept::unit_quaternions());
     transfer("rock_sleep/quiet", sleep.quiet, accept::not_negative());
     transfer("rock_sleep/moves", sleep.moves, accept::within(0, 1));
-    if (sleep.bed.size() > 0)
-    {
-        transfer("rock_sleep/bed", sleep.bed, accept::within(dem::bed_none, dem::bed_asleep));
-    }
+    if (sleep.strewn) { transfer("rock_sleep/bed", sleep.bed, accept::within(dem::bed_none, dem::bed_asleep)); }
     transfer("rock_sleep/load", sleep.watch, accept::finite());
     transfer_sleeping_pairs(state, file);
     if (!file.loads()) { return; }
-    if (!file.exact()) { dem::wake_all(state.pairs, state.bodies); }
+    if (!file.exact())
+    {
+        dem::wake_all(state.pairs, state.bodies);
+        sleep.bed.assign(std::vector<std::int32_t>(static_cast<std::size_t>(sleep.bed.size()), dem::bed_awake));
+    }
     sleep.mark.resize(state.bodies.position.size());
     sleep.mark.fill_zero();
+    sleep.resize_sand(state.bodies.position.size());
     dem::resume_sleep(state.exec, state.pairs, state.view());
 }
 

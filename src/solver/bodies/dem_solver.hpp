@@ -124,6 +124,9 @@ public:
     /// Has rocks follow the sand around them (follow_beds), after sleepers().next_bed has been written.
     void follow_beds() { solver::follow_beds(state_, lists_, reports_, substep_); }
 
+    /// Begins new references of loads (dem::renew_watches).
+    void renew_watches() { dem::renew_watches(state_.exec, state_.pairs); }
+
     /// Call after the wrenches of sleeping sand on sleeping rocks, sleepers().sand, have changed.
     void hold_sleepers() { dem::hold_sleepers(state_.exec, state_.pairs, state_.view()); }
 

@@ -7,6 +7,7 @@
 #include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "decomp/messages.hpp"
+#include "solver/ranks/over_ranks.hpp"
 #include "world/cover.hpp"
 #include "world/materials.hpp"
 
@@ -60,22 +61,6 @@ SandBodyCoupling<Exec, Real>::SandBodyCoupling(const Exec& exec, const scene::Sc
 }
 
 template<class Exec, class Real>
-void SandBodyCoupling<Exec, Real>::send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out)
-{
-    contact::keep_history(exec_, contact_);
-    contact_.tangential.resize(0); // the records are in the table until the next search
-    std::vector<std::vector<contact::HistoryRecord>> leaving;
-    leaving.reserve(migrated_out.size());
-    for (const auto& ids : migrated_out) { leaving.push_back(contact::records_of(exec_, contact_.history, ids)); }
-    std::vector<contact::HistoryRecord> arriving;
-    for (const auto& records : decomp::exchange_values(*communicator_, leaving))
-    {
-        arriving.insert(arriving.end(), records.begin(), records.end());
-    }
-    contact::add_records(exec_, contact_.history, arriving);
-}
-
-template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
                                                    const dem::BodiesView& bodies, std::int64_t version, double span,
                                                    double speed)
@@ -97,10 +82,20 @@ template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::follow_sleep(const SleepChange<Real>& change, const dem::BodiesView& bodies,
                                                 dem::SleepingBodies<Exec>& sleepers)
 {
-    loss_at_rest_ += contact::take_contacts(exec_, contact_, asleep_, change.asleep, change.first_fallen, bodies, law_,
-                                            sleepers.watch.data());
+    double lost = contact::take_contacts(exec_, contact_, asleep_, change.asleep, change.first_fallen, bodies, law_,
+                                         sleepers.loaded.data());
+    sum_over_ranks(communicator_, lost);
+    loss_at_rest_ += lost;
     contact::return_contacts(exec_, contact_, asleep_, change.awake, change.first_woken);
-    contact::sum_sleeping(exec_, asleep_, sleepers.sand);
+    sum_asleep(bodies, sleepers);
+}
+
+template<class Exec, class Real>
+void SandBodyCoupling<Exec, Real>::sum_asleep(const dem::BodiesView& bodies, dem::SleepingBodies<Exec>& sleepers)
+{
+    contact::sum_sleeping(exec_, asleep_, bodies, sleepers.sand);
+    energy_asleep_ = asleep_.energy;
+    sum_over_ranks(communicator_, energy_asleep_);
 }
 
 template<class Exec, class Real>

@@ -94,18 +94,28 @@ public:
     const contact::Summary& summary() const { return summary_; }
 
     /// J, elastic energy of all contacts, sleeping ones included, as of the last measurement.
-    double energy() const { return summary_.energy + asleep_.energy; }
+    double energy() const { return summary_.energy + energy_asleep_; }
 
     /// J, what friction dissipated in contacts that fell asleep since the last call.
     double take_loss_at_rest() { return std::exchange(loss_at_rest_, 0.0); }
 
     /// Takes the contacts of sleeping sand and rocks from the steps and gives those of woken sand back. Updates what
-    /// sleeping sand presses rocks with, `sleepers.sand`. Call before points are sorted.
+    /// sleeping sand presses rocks with, `sleepers.sand`, and marks the rocks that it has begun to press,
+    /// `sleepers.loaded`. Call before points are sorted. Collective.
     void follow_sleep(const SleepChange<Real>& change, const dem::BodiesView& bodies,
                       dem::SleepingBodies<Exec>& sleepers);
 
-    /// Saves or loads the contacts that sleep, where sand may sleep beside rocks.
-    void transfer_sleep(StateFile& file, dem::SleepingBodies<Exec>& sleepers, const ContactPartners& partners);
+    /// Writes what this rank's sleeping sand presses each rock with, `sleepers.sand`. Collective.
+    void sum_asleep(const dem::BodiesView& bodies, dem::SleepingBodies<Exec>& sleepers);
+
+    /// Sends the contacts of sleeping points that have changed ranks. `migrated_out`: as of send_records_after.
+    /// Collective.
+    void send_sleeping_after(const std::vector<std::vector<std::uint32_t>>& migrated_out);
+
+    /// Saves or loads the contacts that sleep, where sand may sleep beside rocks, after transfer(). Where the state is
+    /// not exact, all wake. Collective.
+    void transfer_sleep(StateFile& file, const dem::BodiesView& bodies, dem::SleepingBodies<Exec>& sleepers,
+                        const ContactPartners& partners);
 
     /// Saves or loads contact records and candidates, after the sand and the bodies.
     void transfer(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
@@ -123,11 +133,14 @@ private:
                           const ContactPartners& partners);
     void transfer_candidates(StateFile& file, const dem::BodiesView& bodies, const ContactPartners& partners);
     void transfer_slots(StateFile& file, const ContactPartners& partners);
+    template<class Bound>
+    void wake_records(StateFile& file, const Bound& are_keys);
 
     Exec                                  exec_;
     contact::PointContact<Exec>           contact_;
     contact::SleepingContacts<Exec>       asleep_;
-    double                                loss_at_rest_ = 0; ///< J
+    double                                loss_at_rest_  = 0; ///< J, of all ranks
+    double                                energy_asleep_ = 0; ///< J, elastic, of sleeping contacts of all ranks
     contact::PointBodyLaw                 law_;
     double                                largest_radius_;
     double                                skin_;            ///< m

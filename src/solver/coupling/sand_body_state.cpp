@@ -50,16 +50,36 @@ void SandBodyCoupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesVi
 }
 
 template<class Exec, class Real>
-void SandBodyCoupling<Exec, Real>::transfer_sleep(StateFile& file, dem::SleepingBodies<Exec>& sleepers,
-                                                  const ContactPartners& partners)
+void SandBodyCoupling<Exec, Real>::transfer_sleep(StateFile& file, const dem::BodiesView& bodies,
+                                                  dem::SleepingBodies<Exec>& sleepers, const ContactPartners& partners)
 {
-    file.own("contact/asleep_key", asleep_.key,
-             accept::all(accepted_contact_keys(partners), accept::ascending(), accept::distinct()));
+    const auto are_keys = accept::all(accepted_contact_keys(partners), accept::distinct());
+    if (!file.exact())
+    {
+        wake_records(file, are_keys);
+        return;
+    }
+    file.own("contact/asleep_key", asleep_.key, accept::all(are_keys, accept::ascending()));
     const auto rows = accept::rows(static_cast<std::size_t>(asleep_.key.size()));
     file.own("contact/asleep_tangential", asleep_.tangential, accept::all(rows, accept::finite()));
     file.own("contact/asleep_response", asleep_.response, accept::all(rows, accept::finite()));
     file.own("contact/asleep_material", asleep_.material, accept::all(rows, accept::index(partners.materials)));
-    if (file.loads()) { contact::sum_sleeping(exec_, asleep_, sleepers.sand); }
+    if (file.loads()) { sum_asleep(bodies, sleepers); }
+}
+
+/// Adds the records of the contacts that slept to those of the others.
+template<class Exec, class Real>
+template<class Bound>
+void SandBodyCoupling<Exec, Real>::wake_records(StateFile& file, const Bound& are_keys)
+{
+    std::vector<std::uint64_t>       keys;
+    std::vector<contact::Tangential> tangential;
+    file.own_or_all("contact/asleep_key", keys, are_keys);
+    file.own_or_all("contact/asleep_tangential", tangential,
+                    accept::all(accept::rows(keys.size()), accept::finite()));
+    std::vector<contact::HistoryRecord> records;
+    for (std::size_t i = 0; i < keys.size(); ++i) { records.push_back({keys[i], tangential[i]}); }
+    contact::add_records(exec_, contact_.history, records);
 }
 
 /// If pairs hold their records, moves them to the table, reads it, and clears it.
@@ -126,8 +146,8 @@ void SandBodyCoupling<Exec, Real>::transfer_slots(StateFile& file, const Contact
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void SandBodyCoupling<Exec, Real>::transfer(StateFile&, const dem::BodiesView&, const ContactPartners&);  \
-    template void SandBodyCoupling<Exec, Real>::transfer_sleep(StateFile&, dem::SleepingBodies<Exec>&,                 \
-                                                               const ContactPartners&)
+    template void SandBodyCoupling<Exec, Real>::transfer_sleep(StateFile&, const dem::BodiesView&,                     \
+                                                               dem::SleepingBodies<Exec>&, const ContactPartners&)
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

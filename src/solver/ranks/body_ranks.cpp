@@ -211,7 +211,7 @@ void BodyRanks<Exec>::move_sleepers(const RowArrays<Exec>& arrays, const RowMove
     dem::SleepingBodies<Exec>& sleep = arrays.pairs.sleep;
     take_rows(exec_, moves.from, arrays.bodies.asleep);
     sleep.for_each_state([&](auto& array) { take_rows(exec_, moves.from, array); });
-    take_rows(exec_, moves.from, sleep.mark);
+    sleep.resize_sand(moves.from.size());
     dem::renumber_sleeping_pairs(exec_, arrays.pairs, moves.to, moves.from.size());
 }
 

@@ -53,4 +53,10 @@ void gather_rest(const Communicator* communicator, RestState& state)
     gather(*communicator, state.bodies);
 }
 
+std::vector<BodyReach> bodies_of_ranks(const Communicator* communicator, std::vector<BodyReach> bodies)
+{
+    if (communicator != nullptr) { gather(*communicator, bodies); }
+    return bodies;
+}
+
 } // namespace tread::solver

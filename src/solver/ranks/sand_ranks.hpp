@@ -27,11 +27,11 @@ public:
     std::int64_t order(mpm::Points<Exec, Real>& points, mpm::Pages<Exec>& pages, const mpm::GridGeometry& geometry,
                        const mpm::GridWalls& walls, mpm::OrderScratch<Exec, Real>& scratch);
 
-    /// Migrates points that are not sorted to the owners of their pages.
-    void migrate(mpm::Points<Exec, Real>& points, const mpm::GridGeometry& geometry,
-                 mpm::OrderScratch<Exec, Real>& scratch)
+    /// Migrates points that are not sorted to the owners of their pages; returns how many of all ranks changed rank.
+    std::int64_t migrate(mpm::Points<Exec, Real>& points, const mpm::GridGeometry& geometry,
+                         mpm::OrderScratch<Exec, Real>& scratch)
     {
-        migration_.run(points, geometry, scratch);
+        return migration_.run(points, geometry, scratch);
     }
 
     /// Whether this rank owns a page.

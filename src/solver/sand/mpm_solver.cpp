@@ -136,15 +136,17 @@ std::optional<double> MpmSolver<Exec, Real>::mean_asleep() const
 }
 
 template<class Exec, class Real>
-void MpmSolver<Exec, Real>::follow_owners()
+std::int64_t MpmSolver<Exec, Real>::follow_owners()
 {
+    std::int64_t moved = 0;
     if (sleep_)
     {
         sleep_->tell_ranks();
-        ranks_->migrate(sleep_->points(), grid_.geometry, order_.scratch);
+        moved = ranks_->migrate(sleep_->points(), grid_.geometry, order_.scratch);
     }
     order_.listed      = false;
     order_.cell_change = mpm::CellChange::lost;
+    return moved;
 }
 
 template<class Exec, class Real>

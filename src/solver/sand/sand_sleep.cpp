@@ -102,7 +102,7 @@ template<class Exec, class Real>
 std::optional<SleepMoves> SandSleep<Exec, Real>::wake_near(const Sand& sand, const std::vector<BodyReach>& bodies)
 {
     if (asleep_.empty()) { return {}; }
-    std::vector<std::uint64_t> chosen = stay_asleep(rule_, asleep_, bodies);
+    std::vector<std::uint64_t> chosen = stay_asleep(rule_, asleep_, bodies_of_ranks(communicator_, bodies));
     if (chosen == asleep_) { return {}; }
     watch_.note_woken(without(asleep_, chosen));
     return sleep_on(sand, std::move(chosen), {});

@@ -81,7 +81,7 @@ public:
     /// Otherwise all points must be sorted again; those that woke are then the last ones. Collective.
     std::optional<SleepMoves> sleep_on(const Sand& sand, const std::vector<std::uint64_t>& chosen);
 
-    /// Wakes the pages near these bodies between two checks; result as of sleep_on().
+    /// Wakes the pages near these bodies of this rank between two checks; result as of sleep_on(). Collective.
     std::optional<SleepMoves> wake_near(const Sand& sand, const std::vector<BodyReach>& bodies);
 
     /// Moves all points to the awake ones, as if pages had never slept.

@@ -31,6 +31,10 @@ SleepCount look_at_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodi
 template<class Exec>
 SleepCount follow_beds(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
 
+/// Begins a new reference of the load of the bodies that sleeping sand has loaded (pairs.sleep.loaded).
+template<class Exec>
+void renew_watches(const Exec&, Pairs<Exec>& pairs);
+
 /// Stops the bodies marked as tired: their motion counts as work and impulse of what holds them. Their contacts are
 /// computed once more at rest and kept, with their records, among pairs.sleep.pairs. The list must then be found anew.
 /// `substep`: s, the last one; `gravity`: m/s2.

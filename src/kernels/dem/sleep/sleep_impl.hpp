@@ -230,6 +230,7 @@ void begin_sleep(const Exec& exec, Pairs<Exec>& pairs, Bodies<Exec>& bodies, con
     sleep.rule                  = rule;
     const auto at_zero          = [&](auto&... arrays) { ((arrays.resize(count), arrays.fill_zero()), ...); };
     at_zero(bodies.asleep, sleep.quiet, sleep.moves, sleep.mark, sleep.watch);
+    sleep.resize_sand(count);
     sleep.position.resize(count);
     sleep.orientation.resize(count);
     copy(exec, sleep.position.data(), bodies.position.data(), static_cast<std::size_t>(count) * sizeof(Vec3<double>));
@@ -265,6 +266,14 @@ SleepCount follow_beds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& b
     const SleepCount count = sleeping::count_marks(exec, pairs, bodies);
     if (count.wake > 0) { sleep.change = true; }
     return count;
+}
+
+template<class Exec>
+void renew_watches(const Exec& exec, Pairs<Exec>& pairs)
+{
+    SleepingBodies<Exec>& sleep = pairs.sleep;
+    sleeping::agree_on(exec, sleep, sleep.loaded);
+    for_each(exec, "renew watches", sleep.loaded.size(), sleeping::RenewWatch{sleep.loaded.data(), sleep.watch.data()});
 }
 
 template<class Exec>
@@ -382,6 +391,7 @@ void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& b
     template void       begin_sleep(const Exec&, Pairs<Exec>&, Bodies<Exec>&, const BodyRestRule&);                    \
     template SleepCount look_at_sleep(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                   \
     template SleepCount follow_beds(const Exec&, Pairs<Exec>&, const BodiesView&);                                     \
+    template void       renew_watches(const Exec&, Pairs<Exec>&);                                                      \
     template void       fall_asleep(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, BodyTotal*, double,  \
                                     const Vec3<double>&);                                                              \
     template void       wake_all(Pairs<Exec>&, Bodies<Exec>&);                                                         \

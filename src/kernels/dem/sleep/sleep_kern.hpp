@@ -156,6 +156,18 @@ struct TakeMark
     TREAD_HD void operator()(std::int64_t i) const { mark[shared.body[i]] = mark_of_all(shared, i); }
 };
 
+struct RenewWatch
+{
+    std::int32_t* loaded;
+    SleepWatch*   watch;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        if (loaded[b] != 0) { watch[b].windows = 0; }
+        loaded[b] = 0;
+    }
+};
+
 /// Marks a body that follows its bed.
 struct FollowBed
 {

@@ -172,12 +172,14 @@ struct SleepingBodies
         , sand(exec, "sleeping sand on bodies")
         , bed(exec, "beds of bodies")
         , next_bed(exec, "next beds of bodies")
+        , loaded(exec, "bodies that sand has loaded")
         , moved(exec, "bodies of substeps")
         , pairs(exec)
     {
     }
 
     bool         wanted = false; ///< whether bodies may sleep
+    bool         strewn = false; ///< whether sand may sleep beside them
     bool         wakes  = false; ///< whether bodies near moving ones wake when the next list is found
     bool         change = false; ///< whether some body fell asleep or woke since the last list
     bool         woken  = false; ///< whether some body in sleeping sand woke since sand last followed
@@ -199,6 +201,7 @@ struct SleepingBodies
     Array<Exec, ContactWrench> sand;     ///< wrench of sleeping sand on each body; empty if none sleeps beside bodies
     Array<Exec, std::int32_t>  bed;      ///< SandBed of each body; empty if no sand sleeps beside bodies
     Array<Exec, std::int32_t>  next_bed; ///< likewise, for follow_beds
+    Array<Exec, std::int32_t>  loaded;   ///< likewise, for renew_watches
     Array<Exec, std::int32_t>  moved;    ///< bodies that the substeps compute: awake ones, and sleepers that they touch
     SleepingPairs<Exec>        pairs;
 
@@ -232,7 +235,16 @@ struct SleepingBodies
         f(orientation);
         f(quiet);
         f(moves);
+        f(mark);
         f(watch);
+        if (strewn) { f(bed); }
+    }
+
+    /// Makes room for what sand does to each body; nothing yet.
+    void resize_sand(std::int64_t rows)
+    {
+        const auto at_zero = [rows](auto&... arrays) { ((arrays.resize(rows), arrays.fill_zero()), ...); };
+        if (strewn) { at_zero(sand, next_bed, loaded); }
     }
 
     /// List of the bodies that substeps compute; null: all.
