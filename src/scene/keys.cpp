@@ -313,7 +313,7 @@ Keys<Sleep> sleep_keys()
             .when("distance given", given),
         optional("rock_speed", "m/s", &Sleep::rock_speed, number_or("", speed()),
                  "Rocks fall asleep when no point of them or of any body beside them has gone further in `rock_rest` "
-                 "than at this speed on a straight way, and wake when a body that does comes near. One rank only.",
+                 "than at this speed on a straight way, and wake when a body that does comes near.",
                  "no rock sleeps"),
         optional("rock_rest", "s", &Sleep::rock_rest, number(span_of_time()),
                  "Simulated time for which a rock and all beside it must have been at rest before it falls asleep, and "

@@ -386,7 +386,10 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
         const ContactPartners partners{world_.bodies.size(), static_cast<std::size_t>(sand_->view().count),
                                        world_.sand.size(), scene_.materials.size()};
         coupling_->transfer(file, rigid_->view(), partners);
-        if (rigid_->sleepers().strewn) { coupling_->transfer_sleep(file, rigid_->view(), rigid_->sleepers(), partners); }
+        if (rigid_->sleepers().strewn)
+        {
+            coupling_->transfer_sleep(file, rigid_->view(), rigid_->sleepers(), partners);
+        }
     }
     if (file.loads() && rigid_) { sleepers_version_ = rigid_->partition_version(); }
     transfer_contacts(file);

@@ -195,12 +195,12 @@ private:
     const world::World&          world_;
     const Plan                   plan_;
     PaceLimits                   limits_;
-    double                       free_mass_;       ///< kg, of sand and rocks
-    Vec3<double>                 gravity_;         ///< m/s2
-    std::int64_t                 phase_   = -1;    ///< that has begun here; -1: none
-    bool                         wakes_   = false; ///< whether all sand wakes in the next step
+    double                       free_mass_;                ///< kg, of sand and rocks
+    Vec3<double>                 gravity_;                  ///< m/s2
+    std::int64_t                 phase_            = -1;    ///< that has begun here; -1: none
+    bool                         wakes_            = false; ///< whether all sand wakes in the next step
     std::int64_t                 sleepers_version_ = 0; ///< partition version for which follow_sleepers has been called
-    double                       damping_ = 0;
+    double                       damping_          = 0;
     Measuring                    measuring_;
     LastStep                     last_;
     StopCheck                    why_stop_; ///< empty: no check

@@ -19,6 +19,10 @@ placement = "rain"
 seed      = 1
 """
 
+# Rocks on sand that sleep with it.
+STREWN_ASLEEP = ASLEEP + "rock_speed = 1.0\nrock_rest = 0.001\n" + STREWN.partition(MIXED)[2].replace(
+    "[[0.0, 0.0, 0.105], [0.4, 0.14, 0.19]]", "[[0.0, 0.0, 0.105], [1.0, 0.2, 0.15]]")
+
 
 class RestartOnMoreRanks(RestartTest):
     def test_sand_on_three_ranks_restarted_gives_the_same_bits(self):
@@ -52,18 +56,30 @@ class RestartOnMoreRanks(RestartTest):
         self.check_uninterrupted_is_stopped_and_restarted(ASLEEP, (*MPIRUN, "-n", "2"))
         self.assertGreater(self.summary()["asleep"], 0.1)
 
+    def test_rocks_asleep_in_sand_on_two_ranks_restarted_give_the_same_bits(self):
+        self.check_uninterrupted_is_stopped_and_restarted(STREWN_ASLEEP, (*MPIRUN, "-n", "2"))
+        self.assertGreater(self.summary()["asleep"], 0.1)
+        self.assertGreater(self.summary()["rocks_asleep"], 0.1)
+
     def test_sleeping_sand_goes_on_awake_on_another_number_of_ranks(self):
-        """It falls asleep again; chaos is no measure, as what wakes moves."""
-        checkpoint = self.stop_after_a_checkpoint(ASLEEP, self.directory / "on2", launcher=(*MPIRUN, "-n", "2"))
+        self.check_sleepers_go_on_awake(ASLEEP, ("asleep",))
+
+    def test_rocks_asleep_in_sand_go_on_awake_on_another_number_of_ranks(self):
+        self.check_sleepers_go_on_awake(STREWN_ASLEEP, ("asleep", "rocks_asleep"))
+
+    def check_sleepers_go_on_awake(self, text, shares):
+        """They fall asleep again; chaos is no measure, as what wakes moves."""
+        checkpoint = self.stop_after_a_checkpoint(text, self.directory / "on2", launcher=(*MPIRUN, "-n", "2"))
         whole = self.directory / "whole"
-        self.run_scene(ASLEEP, whole)
+        self.run_scene(text, whole)
         points, energy = self.summary(whole)["points"], self.summary(whole)["errors"]["energy"]
         for launcher in ((), (*MPIRUN, "-n", "3")):
             output = self.directory / f"on{launcher[-1] if launcher else 1}"
-            self.run_scene(ASLEEP, output, "--restart", checkpoint, launcher=launcher)
+            self.run_scene(text, output, "--restart", checkpoint, launcher=launcher)
             ended = self.summary(output)
             self.assertEqual((ended["status"], ended["points"]), ("finished", points))
-            self.assertGreater(ended["asleep"], 0.1)
+            for share in shares:
+                self.assertGreater(ended[share], 0.1)
             self.assertAlmostEqual(ended["errors"]["energy"], energy, delta=1e-3)
 
 

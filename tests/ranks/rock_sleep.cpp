@@ -111,7 +111,7 @@ protected:
         EXPECT_LT(places, bound);
         EXPECT_LT(speeds, bound);
         const solver::Census of_one = run.alone.simulation().census(), of_all = run.together.simulation().census();
-        const auto           alone = test::errors_of(run.alone, of_one), together = test::errors_of(run.together, of_all);
+        const auto alone = test::errors_of(run.alone, of_one), together = test::errors_of(run.together, of_all);
         std::printf("energy unaccounted %.3g, alone %.3g; momentum %.3g, %.3g\n", together.energy, alone.energy,
                     together.momentum, alone.momentum);
         EXPECT_NEAR(alone.energy, together.energy, balance);
@@ -162,12 +162,12 @@ TYPED_TEST(RocksAsleepOnRanks, SleepersChangeTheirOwner)
 /// Rocks asleep on sand that is computed, which crosses the border below them.
 TYPED_TEST(RocksAsleepOnRanks, OnSand)
 {
-    const std::string text = std::string(test::sand_text) + "[numerics]\nprecision = \"double\"\n" +
-                             test::stone(1e7, 0.5, 0.5) +
-                             "[[shape]]\nname = \"pebble\"\ngenerate = { kind = \"sphere\", nodes = 42 }\nsdf_cells = 20\n"
-                             "[[rocks]]\nshape = \"pebble\"\nmaterial = \"stone\"\ncount = 4\ndiameter = 0.1\n"
-                             "placement = \"grid\"\nregion = { box = [[0.0, 0.0, 0.23], [0.4, 0.4, 0.35]] }\n" +
-                             test::phase("lie", 0, 1.0) + "[sleep]\nrock_speed = 0.05\nrock_rest = 0.02\n";
+    const std::string text =
+        std::string(test::sand_text) + "[numerics]\nprecision = \"double\"\n" + test::stone(1e7, 0.5, 0.5) +
+        "[[shape]]\nname = \"pebble\"\ngenerate = { kind = \"sphere\", nodes = 42 }\nsdf_cells = 20\n"
+        "[[rocks]]\nshape = \"pebble\"\nmaterial = \"stone\"\ncount = 4\ndiameter = 0.1\n"
+        "placement = \"grid\"\nregion = { box = [[0.0, 0.0, 0.23], [0.4, 0.4, 0.35]] }\n" +
+        test::phase("lie", 0, 1.0) + "[sleep]\nrock_speed = 0.05\nrock_rest = 0.02\n";
     const Vec3<double>          box(0.4, 0.4, 0.6);
     test::SideBySide<TypeParam> run(this->exec(), test::load_text(text), box, test::slabs(box[0], this->ranks()));
     Slept                       slept;
@@ -179,7 +179,8 @@ TYPED_TEST(RocksAsleepOnRanks, OnSand)
 
 /// A bed of sand and rocks that sleeps, and a ball that falls on it in the middle.
 const Vec3<double> bed_size(2.4, 0.4, 1.6); ///< m
-const std::string  bed_text = test::long_bed + R"(
+const std::string  bed_text =
+    test::long_bed + R"(
 [[shape]]
 name      = "sphere"
 generate  = { kind = "sphere", nodes = 42 }
@@ -191,7 +192,8 @@ material = "stone"
 diameter = 0.1
 mass     = 1.4
 position = [1.2, 0.2, 1.5]
-)" + test::phase("fall", 0, 2.0) + "[sleep]\ndistance = 0.1\nspeed = 0.05\nrest = 0.02\nrock_speed = 0.05\nrock_rest = 0.02\n";
+)" + test::phase("fall", 0, 2.0) +
+    "[sleep]\ndistance = 0.1\nspeed = 0.05\nrest = 0.02\nrock_speed = 0.05\nrock_rest = 0.02\n";
 
 template<class Exec>
 class StrewnRanks : public RocksAsleepOnRanks<Exec>

@@ -103,7 +103,7 @@ int compare_holders(solver::DemSolver<Exec>& rigid)
     const std::vector<double> allowed   = rigid.pairs().displacement.allowed.to_host();
     std::vector<std::int32_t> asleep    = rigid.bodies().asleep.to_host();
     asleep.resize(role.size(), 0);
-    std::vector<State>        held;
+    std::vector<State> held;
     for (std::size_t row = 0; row < role.size(); ++row)
     {
         if (role[row] == dem::role_none) { continue; }

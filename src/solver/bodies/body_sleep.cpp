@@ -35,10 +35,7 @@ public:
     dem::SharedView shared() override { return ranks_.shared().view(); }
     void            exchange_marks() override { ranks_.shared().exchange_marks(); }
     void            exchange_wrenches() override { ranks_.shared().exchange_wrenches(); }
-    void            add(double* values, int count) const override
-    {
-        decomp::combine(ranks_.communicator(), values, count, 0);
-    }
+    void add(double* values, int count) const override { decomp::combine(ranks_.communicator(), values, count, 0); }
 
 private:
     BodyRanks<Exec>& ranks_;

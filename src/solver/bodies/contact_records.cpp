@@ -191,7 +191,7 @@ void transfer_contacts(BodyState<Exec>& state, StateFile& file)
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template bool is_answered_here(const BodyState<Exec>&, const std::vector<std::int32_t>&, std::uint64_t);           \
     template void take_keys_here(const BodyState<Exec>&, std::vector<std::uint64_t>&, const StateFile&, const char*);  \
-    template void                              restore_contacts(BodyState<Exec>&);                                     \
+    template void restore_contacts(BodyState<Exec>&);                                                                  \
     template std::vector<world::ContactRecord> live_contacts(const BodyState<Exec>&);                                  \
     template void                              transfer_contacts(BodyState<Exec>&, StateFile&)
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)

@@ -75,8 +75,7 @@ void SandBodyCoupling<Exec, Real>::wake_records(StateFile& file, const Bound& ar
     std::vector<std::uint64_t>       keys;
     std::vector<contact::Tangential> tangential;
     file.own_or_all("contact/asleep_key", keys, are_keys);
-    file.own_or_all("contact/asleep_tangential", tangential,
-                    accept::all(accept::rows(keys.size()), accept::finite()));
+    file.own_or_all("contact/asleep_tangential", tangential, accept::all(accept::rows(keys.size()), accept::finite()));
     std::vector<contact::HistoryRecord> records;
     for (std::size_t i = 0; i < keys.size(); ++i) { records.push_back({keys[i], tangential[i]}); }
     contact::add_records(exec_, contact_.history, records);

@@ -21,12 +21,12 @@ namespace
 template<class Exec>
 decomp::Columns state_columns(const RowArrays<Exec>& arrays)
 {
-    const dem::BodiesView view    = arrays.bodies.view();
-    decomp::Columns       columns = decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.mass,
-                           view.inertia, view.scale, view.shape, view.material, view.locked, view.damped, view.force,
-                           view.torque, view.stiffness, arrays.pairs.displacement.allowed.data(),
-                           arrays.pairs.sizes.node_area.data(), arrays.pairs.sizes.is_large.data(),
-                           arrays.bounding_radii.data());
+    const dem::BodiesView view = arrays.bodies.view();
+    decomp::Columns       columns =
+        decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.mass, view.inertia,
+                        view.scale, view.shape, view.material, view.locked, view.damped, view.force, view.torque,
+                        view.stiffness, arrays.pairs.displacement.allowed.data(), arrays.pairs.sizes.node_area.data(),
+                        arrays.pairs.sizes.is_large.data(), arrays.bounding_radii.data());
     if (!arrays.pairs.sleep.wanted) { return columns; }
     columns.add(decomp::rows(view.asleep));
     arrays.pairs.sleep.for_each_state([&](auto& array) { columns.add(decomp::rows(array.data())); });

@@ -14,12 +14,12 @@ namespace tread::solver
 template<class Exec>
 SleepingRecords read_sleeping_pairs(const dem::SleepingPairs<Exec>& pairs)
 {
-    const auto keys     = pairs.key.to_host();
-    const auto patches  = pairs.patch.to_host();
-    const auto rolling  = pairs.rolling.to_host();
-    const auto places   = pairs.place.to_host();
-    const auto contacts = pairs.contact.to_host();
-    SleepingRecords    records;
+    const auto      keys     = pairs.key.to_host();
+    const auto      patches  = pairs.patch.to_host();
+    const auto      rolling  = pairs.rolling.to_host();
+    const auto      places   = pairs.place.to_host();
+    const auto      contacts = pairs.contact.to_host();
+    SleepingRecords records;
     records.reserve(keys.size());
     for (std::size_t p = 0; p < keys.size(); ++p)
     {
@@ -61,7 +61,7 @@ void SleepingPairMigration<Exec>::take(const Communicator& communicator, dem::Pa
     const auto moved = destinations(decided, numbers, communicator.rank());
     if (moved.empty() || pairs.sleep.pairs.key.size() == 0) { return; }
     const std::vector<std::int32_t> is_large = pairs.sizes.is_large.to_host();
-    SleepingRecords                         stay;
+    SleepingRecords                 stay;
     bool                            any = false;
     for (SleepingRecord& one : read_sleeping_pairs(pairs.sleep.pairs))
     {
@@ -101,8 +101,8 @@ void SleepingPairMigration<Exec>::send(const Communicator& communicator, dem::Pa
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template SleepingRecords read_sleeping_pairs(const dem::SleepingPairs<Exec>&);                         \
-    template void                        write_sleeping_pairs(dem::Pairs<Exec>&, SleepingRecords);         \
+    template SleepingRecords read_sleeping_pairs(const dem::SleepingPairs<Exec>&);                                     \
+    template void            write_sleeping_pairs(dem::Pairs<Exec>&, SleepingRecords);                                 \
     template class SleepingPairMigration<Exec>
 TREAD_FOR_BACKENDS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -81,8 +81,8 @@ public:
     std::optional<double> mean_asleep() const;
 
     /// Call after pages have got new owners, with no step since the last report: sleeping points migrate at once, and
-    /// the next order() sorts and migrates the others. Returns how many sleeping points of all ranks changed rank; those
-    /// of this rank are migrated_out().
+    /// the next order() sorts and migrates the others. Returns how many sleeping points of all ranks changed rank;
+    /// those of this rank are migrated_out().
     std::int64_t follow_owners();
 
     /// Adds the work of this rank's points to the pages where they were last listed, and next to none to its sleeping

@@ -206,7 +206,9 @@ void weigh(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     SleepingBodies<Exec>& sleep = pairs.sleep;
     const std::int64_t    count = sleep.pairs.key.size();
     const auto            sum   = sum_over_bodies<SleepersSum>(exec, pairs, bodies.count, "weigh sleepers",
-                                                               [&](double* rows) { return WriteSleeper{bodies, rows}; });
+                                                  [&](double* rows) {
+                                                      return WriteSleeper{bodies, rows};
+                                                  });
     sleep.count                 = sum.count;
     sleep.mass                  = sum.mass;
     pairs.measure.resize(count + 1);
@@ -288,9 +290,9 @@ void fall_asleep(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     for_each(exec, "friction at rest", bodies.count, BookFriction{bodies.count, pairs.view(), totals});
     const SumLoads loads{pairs.view()};
     share_sums(exec, sleep, "share loads", loads);
-    for_each(exec, "begin watch", bodies.count,
-             BeginWatch{bodies, loads, sleep.shared(), sleep.rule.load, gravity, sleep.watch.data(),
-                        sleep.mark.data()});
+    for_each(
+        exec, "begin watch", bodies.count,
+        BeginWatch{bodies, loads, sleep.shared(), sleep.rule.load, gravity, sleep.watch.data(), sleep.mark.data()});
     keep_contacts(exec, pairs, bodies);
     sleep.change = true;
 }
@@ -321,7 +323,7 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
                  WidenMarks{bodies, sleep.pairs.view(), mark_wakes + ring, sleep.mark.data()});
         agree_on(exec, sleep, sleep.mark);
     }
-    const auto wake  = [&](double* rows)
+    const auto wake = [&](double* rows)
     { return WakeBody{bodies, sleep.rule, sleep.bed.data(), sleep.mark.data(), sleep.rest_watch(), rows}; };
     const auto woken = sum_over_bodies<Woken>(exec, pairs, bodies.count, "wake bodies", wake);
     sleep.change     = sleep.change || woken.bodies > 0;
@@ -383,8 +385,8 @@ template<class Exec>
 void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const OutsideWrenches& outside)
 {
     select(exec, "bodies of substeps", bodies.count,
-           sleeping::IsMoved{bodies, pairs.view(), outside, pairs.sleep.shared()},
-           pairs.search.found, pairs.sort, pairs.sleep.moved);
+           sleeping::IsMoved{bodies, pairs.view(), outside, pairs.sleep.shared()}, pairs.search.found, pairs.sort,
+           pairs.sleep.moved);
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
@@ -399,9 +401,8 @@ void list_moved_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& b
     template void       settle_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                 \
     template void       hold_sleepers(const Exec&, Pairs<Exec>&, const BodiesView&);                                   \
     template void       resume_sleep(const Exec&, Pairs<Exec>&, const BodiesView&);                                    \
-    template void       renumber_sleeping_pairs(const Exec&, Pairs<Exec>&, const Array<Exec, std::int32_t>&,           \
-                                                std::int64_t);                                                         \
-    template void       list_moved_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const OutsideWrenches&)
+    template void renumber_sleeping_pairs(const Exec&, Pairs<Exec>&, const Array<Exec, std::int32_t>&, std::int64_t);  \
+    template void list_moved_bodies(const Exec&, Pairs<Exec>&, const BodiesView&, const OutsideWrenches&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

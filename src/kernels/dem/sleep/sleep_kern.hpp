@@ -274,7 +274,7 @@ struct BeginWatch
         const double        of_sand = (bodies.force[b] - between.force).norm();
         const double        carried = bodies.mass[b] * gravity.norm() + between.stiffness + of_sand;
         const Vec3<double>  zero    = Vec3<double>::Zero();
-        watch[b]                    = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
+        watch[b] = {ContactWrench::zero(), zero, zero, zero, zero, zero, zero, 0.5 * share * carried, 0};
     }
 };
 
@@ -285,10 +285,7 @@ struct ShareSum
     SharedView shared;
     Sum        sum;
 
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        shared.wrench[i] = {ContactWrench::zero(), sum(shared.body[i])};
-    }
+    TREAD_HD void operator()(std::int64_t i) const { shared.wrench[i] = {ContactWrench::zero(), sum(shared.body[i])}; }
 };
 
 /// Whether a listed pair is one of two sleepers, or of one and a wall.
@@ -448,8 +445,8 @@ struct IsMoved
 
     TREAD_HD bool operator()(std::int64_t b) const
     {
-        return !bodies.is_asleep(b) || shared.is_shared(b) || pairs.first[b] < pairs.first[b + 1] || pairs.second[b] < pairs.second[b + 1] ||
-               (outside.run != nullptr && outside.run[b] >= 0);
+        return !bodies.is_asleep(b) || shared.is_shared(b) || pairs.first[b] < pairs.first[b + 1] ||
+               pairs.second[b] < pairs.second[b + 1] || (outside.run != nullptr && outside.run[b] >= 0);
     }
 };
 
