@@ -263,8 +263,8 @@ std::int64_t strewn_bed_bytes(const world::World& world, const solver::Plan& pla
     {
         rows += 4 * std::numbers::pi * world.bodies.radius[b] * world.bodies.radius[b] / face;
     }
-    const auto of_wrenches = static_cast<std::int64_t>(world.bodies.size() * sizeof(dem::ContactWrench));
-    return of_wrenches + static_cast<std::int64_t>(rows * static_cast<double>(solver::sleeping_contact_bytes));
+    const auto of_bodies = static_cast<std::int64_t>(world.bodies.size() * (sizeof(dem::ContactWrench) + 4));
+    return of_bodies + static_cast<std::int64_t>(rows * static_cast<double>(solver::sleeping_contact_bytes));
 }
 
 /// Bytes of the columns of doubles (run/recorder.cpp), which grow by 1024 rows (io/h5.cpp), and of their names.
