@@ -87,7 +87,7 @@ public:
 
     /// Predicted work of the bodies that this rank owns, in points, on several ranks; add_loads adds it to their
     /// pages.
-    double load() const { return state_.ranks->load(); }
+    double load() const { return state_.ranks->load(state_.pairs.sleep.here); }
     void   add_loads(decomp::PageLoads& loads) const { state_.ranks->add_loads(state_.bodies, loads); }
 
     /// Step 1. Sets what the named bodies are held or driven to (apply_commands).

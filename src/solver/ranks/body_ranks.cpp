@@ -304,18 +304,21 @@ BodyHoldings BodyRanks<Exec>::decide(const RowArrays<Exec>& arrays)
 }
 
 template<class Exec>
-double BodyRanks<Exec>::load() const
+double BodyRanks<Exec>::load(double asleep) const
 {
-    return body_load * owners_.count();
+    return body_load * (owners_.count() - asleep) + body_load_asleep * asleep;
 }
 
 template<class Exec>
 void BodyRanks<Exec>::add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const
 {
     const std::vector<Vec3<double>> position = bodies.position.to_host();
+    std::vector<std::int32_t>       asleep   = bodies.asleep.to_host();
+    asleep.resize(position.size(), 0);
     for (std::size_t row = 0; row < position.size(); ++row)
     {
-        if (owns(static_cast<std::int64_t>(row))) { loads[owners_.page_of(position[row])] += body_load; }
+        if (!owns(static_cast<std::int64_t>(row))) { continue; }
+        loads[owners_.page_of(position[row])] += asleep[row] != 0 ? body_load_asleep : body_load;
     }
 }
 

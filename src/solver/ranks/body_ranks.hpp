@@ -85,8 +85,8 @@ public:
     /// How the last assign_owners() has changed rows; null where it has not.
     const RowMoves<Exec>* row_moves() const { return moves_ ? &*moves_ : nullptr; }
 
-    /// Predicted work of this rank's bodies, in points, in total and by page.
-    double load() const;
+    /// Predicted work of this rank's bodies, in points, in total and by page. `asleep`: number of them that sleep.
+    double load(double asleep) const;
     void   add_loads(const dem::Bodies<Exec>& bodies, decomp::PageLoads& loads) const;
 
     bool pages_have_changed() const { return owners_.pages_version() != decomposition_.owners.changes(); }

@@ -17,6 +17,9 @@ namespace tread::solver
 /// of rocks.
 inline constexpr double body_load = 150;
 
+/// Work of one that sleeps: it is looked at once a step, and sorted into a cell where pairs are found.
+inline constexpr double body_load_asleep = 1; // assumed
+
 /// Describes a partition for the log: "largest load 1.02 of the mean ...".
 std::string describe_partition(const decomp::PageGraph& graph, const decomp::Partition& found, int ranks);
 

@@ -174,7 +174,7 @@ void share_sums(const Exec& exec, SleepingBodies<Exec>& sleep, const char* name,
     sleep.ranks->exchange_wrenches();
 }
 
-/// Sums rows of doubles in pairs.measure, one a body, over bodies and ranks. Sums: a struct of doubles.
+/// Sums rows of doubles in pairs.measure, one a body, over this rank's bodies. Sums: a struct of doubles.
 template<class Sums, class Exec, class WriteRow>
 Sums sum_over_bodies(const Exec& exec, Pairs<Exec>& pairs, std::int64_t bodies, const char* name, WriteRow write_row)
 {
@@ -183,9 +183,7 @@ Sums sum_over_bodies(const Exec& exec, Pairs<Exec>& pairs, std::int64_t bodies, 
     double* rows = pairs.measure.data();
     for_each(exec, name, bodies, write_row(rows));
     sum_rows(exec, rows, bodies, width, rows + width * bodies);
-    auto sums = read(exec, reinterpret_cast<const Sums*>(rows + width * bodies));
-    pairs.sleep.add_ranks(reinterpret_cast<double*>(&sums), width);
-    return sums;
+    return read(exec, reinterpret_cast<const Sums*>(rows + width * bodies));
 }
 
 /// Counts the marks of all ranks' bodies.
@@ -193,10 +191,11 @@ template<class Exec>
 SleepCount count_marks(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const SleepingBodies<Exec>& sleep = pairs.sleep;
-    return sum_over_bodies<SleepCount>(exec, pairs, bodies.count, "count sleep marks",
-                                       [&](double* rows) {
-                                           return CountMark{bodies, sleep.rule.first, sleep.mark.data(), rows};
-                                       });
+    const auto                  count = [&](double* rows)
+    { return CountMark{bodies, sleep.rule.first, sleep.mark.data(), rows}; };
+    auto all = sum_over_bodies<SleepCount>(exec, pairs, bodies.count, "count sleep marks", count);
+    sleep.add_ranks(all);
+    return all;
 }
 
 /// Sums number and mass of what sleeps on all ranks, and contact energy of what sleeps here.
@@ -205,12 +204,12 @@ void weigh(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     SleepingBodies<Exec>& sleep = pairs.sleep;
     const std::int64_t    count = sleep.pairs.key.size();
-    const auto            sum   = sum_over_bodies<SleepersSum>(exec, pairs, bodies.count, "weigh sleepers",
-                                                  [&](double* rows) {
-                                                      return WriteSleeper{bodies, rows};
-                                                  });
-    sleep.count                 = sum.count;
-    sleep.mass                  = sum.mass;
+    const auto            write = [&](double* rows) { return WriteSleeper{bodies, rows}; };
+    auto sum   = sum_over_bodies<SleepersSum>(exec, pairs, bodies.count, "weigh sleepers", write);
+    sleep.here = sum.count;
+    sleep.add_ranks(sum);
+    sleep.count = sum.count;
+    sleep.mass  = sum.mass;
     pairs.measure.resize(count + 1);
     double* rows = pairs.measure.data();
     for_each(exec, "energies of sleepers", count, WriteEnergy{sleep.pairs.view(), rows});
@@ -325,7 +324,8 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     }
     const auto wake = [&](double* rows)
     { return WakeBody{bodies, sleep.rule, sleep.bed.data(), sleep.mark.data(), sleep.rest_watch(), rows}; };
-    const auto woken = sum_over_bodies<Woken>(exec, pairs, bodies.count, "wake bodies", wake);
+    auto woken = sum_over_bodies<Woken>(exec, pairs, bodies.count, "wake bodies", wake);
+    sleep.add_ranks(woken);
     sleep.change     = sleep.change || woken.bodies > 0;
     sleep.woken      = sleep.woken || woken.in_sand > 0;
 }

@@ -185,7 +185,8 @@ struct SleepingBodies
     bool         woken  = false; ///< whether some body in sleeping sand woke since sand last followed
     BodyRestRule rule{};
     SleepClock   clock;
-    double       count  = 0; ///< number of sleepers of all ranks
+    double       here   = 0; ///< number of this rank's sleepers
+    double       count  = 0; ///< likewise of all ranks
     double       mass   = 0; ///< kg, of all of them
     double       energy = 0; ///< J, elastic, of this rank's pairs of sleepers
 
@@ -221,10 +222,12 @@ struct SleepingBodies
     /// Bodies that this rank shares with others.
     SharedView shared() const { return ranks ? ranks->shared() : SharedView{}; }
 
-    /// Sums numbers over ranks.
-    void add_ranks(double* values, int number) const
+    /// Sums a struct of doubles over ranks.
+    template<class Sums>
+    void add_ranks(Sums& sums) const
     {
-        if (ranks) { ranks->add(values, number); }
+        static_assert(sizeof(Sums) % sizeof(double) == 0);
+        if (ranks) { ranks->add(reinterpret_cast<double*>(&sums), sizeof(Sums) / sizeof(double)); }
     }
 
     /// Calls f(array) for each array by row that a body takes along when it changes ranks.
