@@ -191,9 +191,8 @@ template<class Exec>
 SleepCount count_marks(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     const SleepingBodies<Exec>& sleep = pairs.sleep;
-    const auto                  count = [&](double* rows)
-    { return CountMark{bodies, sleep.rule.first, sleep.mark.data(), rows}; };
-    auto all = sum_over_bodies<SleepCount>(exec, pairs, bodies.count, "count sleep marks", count);
+    const auto count = [&](double* rows) { return CountMark{bodies, sleep.rule.first, sleep.mark.data(), rows}; };
+    auto       all   = sum_over_bodies<SleepCount>(exec, pairs, bodies.count, "count sleep marks", count);
     sleep.add_ranks(all);
     return all;
 }
@@ -205,8 +204,8 @@ void weigh(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
     SleepingBodies<Exec>& sleep = pairs.sleep;
     const std::int64_t    count = sleep.pairs.key.size();
     const auto            write = [&](double* rows) { return WriteSleeper{bodies, rows}; };
-    auto sum   = sum_over_bodies<SleepersSum>(exec, pairs, bodies.count, "weigh sleepers", write);
-    sleep.here = sum.count;
+    auto                  sum   = sum_over_bodies<SleepersSum>(exec, pairs, bodies.count, "weigh sleepers", write);
+    sleep.here                  = sum.count;
     sleep.add_ranks(sum);
     sleep.count = sum.count;
     sleep.mass  = sum.mass;
@@ -326,8 +325,8 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     { return WakeBody{bodies, sleep.rule, sleep.bed.data(), sleep.mark.data(), sleep.rest_watch(), rows}; };
     auto woken = sum_over_bodies<Woken>(exec, pairs, bodies.count, "wake bodies", wake);
     sleep.add_ranks(woken);
-    sleep.change     = sleep.change || woken.bodies > 0;
-    sleep.woken      = sleep.woken || woken.in_sand > 0;
+    sleep.change = sleep.change || woken.bodies > 0;
+    sleep.woken  = sleep.woken || woken.in_sand > 0;
 }
 
 template<class Exec>
