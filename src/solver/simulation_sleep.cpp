@@ -67,7 +67,7 @@ void Simulation<Exec, Real>::follow_sleepers()
 template<class Exec, class Real>
 void Simulation<Exec, Real>::wake_sand_near_rocks(StageClock& clock)
 {
-    if (!std::exchange(rigid_->sleepers().woken, false)) { return; }
+    if (!std::exchange(rigid_->sleepers().woken, false) || !sand_ || !sand_->may_sleep()) { return; }
     clock.run(exec_, stage::sleep, [&] { sand_->wake_near(sand_wakers(), sleep_follower()); });
 }
 
