@@ -138,7 +138,7 @@ class Forged(RestartTest):
 
     def test_every_data_set_of_sleeping_sand_and_rocks_is_checked(self):
         rocks = '[[rocks]]\nshape = "roller"\nmaterial = "steel"\ncount = 1\ndiameter = 0.06\nplacement = "replace"\n' \
-            'region = { box = [[0.7, 0.0, 0.0], [0.9, 0.2, 0.1]] }\n'
+            'region = { box = [[0.8, 0.0, 0.02], [1.0, 0.2, 0.1]] }\n'
         text = ASLEEP.replace("[sleep]", rocks + "[sleep]") + "rock_speed = 1.0\nrock_rest = 0.001\n"
         original = self.check_every_value(text)
         for name in ("key", "tangential", "response", "material"):

@@ -19,9 +19,17 @@ placement = "rain"
 seed      = 1
 """
 
-# Rocks on sand that sleep with it.
+# Rocks on sand that sleep with it, and one in it.
 STREWN_ASLEEP = ASLEEP + "rock_speed = 1.0\nrock_rest = 0.001\n" + STREWN.partition(MIXED)[2].replace(
-    "[[0.0, 0.0, 0.105], [0.4, 0.14, 0.19]]", "[[0.0, 0.0, 0.105], [1.0, 0.2, 0.15]]")
+    "[[0.0, 0.0, 0.105], [0.4, 0.14, 0.19]]", "[[0.0, 0.0, 0.105], [1.0, 0.2, 0.15]]") + """
+[[rocks]]
+shape     = "roller"
+material  = "steel"
+count     = 1
+diameter  = 0.06
+region    = { box = [[0.8, 0.0, 0.02], [1.0, 0.2, 0.1]] }
+placement = "replace"
+"""
 
 
 class RestartOnMoreRanks(RestartTest):
