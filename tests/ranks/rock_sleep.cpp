@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cstdio>
+#include <cstring>
+#include <map>
 
 #include "physics/strewn_bed.hpp"
 #include "side_by_side.hpp"
@@ -74,7 +76,65 @@ struct Slept
     std::int64_t most  = 0;
     std::int64_t woken = 0; ///< sum over steps
     std::int64_t last  = 0;
+    std::int64_t steps = 0;
 };
+
+/// Expects that all holders of a sleeper watch the same load, to the bit. Collective.
+template<class Exec>
+void compare_watches(solver::DemSolver<Exec>& rigid)
+{
+    struct Watched
+    {
+        double          number;
+        dem::SleepWatch watch;
+    };
+    const std::vector<std::int32_t>    asleep = rigid.bodies().asleep.to_host(), role = rigid.bodies().role.to_host();
+    const std::vector<dem::SleepWatch> watch = rigid.sleepers().watch.to_host();
+    std::vector<Watched>               held;
+    for (std::size_t row = 0; row < role.size(); ++row)
+    {
+        const auto number = static_cast<double>(rigid.numbers().number(static_cast<std::int64_t>(row)));
+        if (role[row] != dem::role_none && asleep[row] != 0) { held.push_back({number, watch[row]}); }
+    }
+    std::map<double, dem::SleepWatch> of_first;
+    for (const std::vector<Watched>& of_rank : decomp::gather_values(test::world(), held))
+    {
+        for (const Watched& one : of_rank)
+        {
+            const auto [first, is_first] = of_first.try_emplace(one.number, one.watch);
+            const bool same              = std::memcmp(&first->second, &one.watch, sizeof(one.watch)) == 0;
+            EXPECT_TRUE(is_first || same) << "watch over rock " << one.number;
+        }
+    }
+}
+
+/// Forces on all rocks (N), by number. Collective where the simulation is on several ranks.
+template<class Exec>
+std::map<std::int64_t, Vec3<double>> forces_of(solver::Simulation<Exec, double>& simulation)
+{
+    struct Loaded
+    {
+        std::int64_t number;
+        Vec3<double> force;
+    };
+    solver::DemSolver<Exec>&        rigid = simulation.rigid();
+    const auto                      force = rigid.bodies().force.to_host();
+    const std::vector<std::int32_t> role  = rigid.bodies().role.to_host();
+    std::vector<Loaded>             own;
+    for (std::size_t row = 0; row < force.size(); ++row)
+    {
+        if (!role.empty() && role[row] != dem::role_owner) { continue; }
+        own.push_back({rigid.numbers().number(static_cast<std::int64_t>(row)), force[row]});
+    }
+    std::map<std::int64_t, Vec3<double>> all;
+    const auto                           of_ranks =
+        role.empty() ? std::vector<std::vector<Loaded>>{own} : decomp::gather_values(test::world(), own);
+    for (const std::vector<Loaded>& of_rank : of_ranks)
+    {
+        for (const Loaded& one : of_rank) { all[one.number] = one.force; }
+    }
+    return all;
+}
 
 template<class Exec>
 class RocksAsleepOnRanks : public test::BackendTest<Exec>
@@ -90,6 +150,7 @@ protected:
             const std::int64_t one = run.alone.simulation().rocks_asleep(),
                                all = run.together.simulation().rocks_asleep();
             ASSERT_EQ(one, all) << "step " << step;
+            if (++slept.steps % 20 == 0) { test::compare_holders(run.together.simulation().rigid()); }
             slept.most = std::max(slept.most, one);
             slept.woken += std::max<std::int64_t>(slept.last - one, 0);
             slept.last = one;
@@ -100,7 +161,17 @@ protected:
     /// have its state to the bit.
     static void expect_as_alone(test::SideBySide<Exec>& run, const Slept& slept, double bound, double balance)
     {
-        const int            ghosts = test::compare_holders(run.together.simulation().rigid());
+        const int ghosts = test::compare_holders(run.together.simulation().rigid());
+        compare_watches(run.together.simulation().rigid());
+        const auto forces = forces_of(run.alone.simulation()), forces_together = forces_of(run.together.simulation());
+        double     force = 0, off = 0;
+        for (const auto& [number, of_one] : forces)
+        {
+            force = std::max(force, of_one.norm());
+            off   = std::max(off, (of_one - forces_together.at(number)).norm());
+        }
+        std::printf("forces up to %.4g N differ by %.3g N\n", force, off);
+        EXPECT_LE(off, 100 * bound * force) << "contacts are stiff";
         const io::BodyFields one = run.alone.simulation().body_fields(), all = run.bodies_together();
         const double         places = test::difference(one.position, all.position, 1.0),
                      speeds         = test::difference(one.velocity, all.velocity, 1.0);

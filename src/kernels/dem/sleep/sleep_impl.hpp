@@ -259,7 +259,6 @@ template<class Exec>
 SleepCount follow_beds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     SleepingBodies<Exec>& sleep = pairs.sleep;
-    sleeping::agree_on(exec, sleep, sleep.next_bed);
     for_each(exec, "follow beds", bodies.count,
              sleeping::FollowBed{bodies, sleep.rule, sleep.quiet.data(), sleep.next_bed.data(), sleep.bed.data(),
                                  sleep.mark.data()});

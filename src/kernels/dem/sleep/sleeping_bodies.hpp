@@ -126,7 +126,7 @@ enum SleepMark : std::int32_t
 enum SandBed : std::int32_t
 {
     bed_none   = 0,
-    bed_awake  = 1, ///< all of it
+    bed_awake  = 1, ///< all of it; several ranks may differ about bed_none, each of its own points
     bed_asleep = 2, ///< some of it
 };
 
