@@ -85,7 +85,7 @@ TEST(LeftOut, RocksThatMaySleep)
     const Part sleep = {{"bodies of substeps", "body orientations at rest", "body positions at rest",
                          "body sleep marks", "body times at rest", "loads of sleeping bodies", "moving bodies",
                          "sleeping bodies"},
-                        {"bodies of substeps", "look at sleep", "time at rest"}};
+                        {"bodies of substeps", "count sleep marks", "look at sleep", "time at rest"}};
     expect_uses(without_terrain(test::sand_text) + above + "[sleep]\nrock_speed = 1e-3\n",
                 bodies + pairs + pairs_without_sand + sleep);
 }
@@ -97,8 +97,9 @@ TEST(LeftOut, SandAndRocksThatMaySleep)
     const Part without = used_by(test::sand_text + within + both), with = used_by(test::sand_text + within + rocks);
     const Part sleep = {{"bodies of substeps", "body sleep marks", "body times at rest", "loads of sleeping bodies",
                          "sleeping bodies", "sleeping sand on bodies", "beds of bodies", "next beds of bodies",
-                         "body positions at rest", "body orientations at rest", "moving bodies"},
-                        {"bodies of substeps", "look at sleep", "time at rest"}};
+                         "bodies that sand has loaded", "body positions at rest", "body orientations at rest",
+                         "moving bodies"},
+                        {"bodies of substeps", "count sleep marks", "look at sleep", "time at rest"}};
     expect_equal(with, without + sleep);
 }
 
