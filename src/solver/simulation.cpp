@@ -216,9 +216,12 @@ void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
 {
     if (plan_.body_contact)
     {
-        clock.run(exec_, stage::pairs, [&] { rigid_->find_pairs(span); });
+        const auto find = [&]
+        {
+            if (rigid_->find_pairs(span) && coupling_) { follow_sleepers(*rigid_, *coupling_); }
+        };
+        clock.run(exec_, stage::pairs, find);
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
-        follow_sleepers();
         wake_sand_near_rocks(clock);
     }
     if (!coupling_) { return; }
@@ -391,7 +394,6 @@ void Simulation<Exec, Real>::transfer(StateFile& file)
             coupling_->transfer_sleep(file, rigid_->view(), rigid_->sleepers(), partners);
         }
     }
-    if (file.loads() && rigid_) { sleepers_version_ = rigid_->partition_version(); }
     transfer_contacts(file);
     solver::transfer(file, measuring_, last_, damping_);
     ledger_->transfer(file);

@@ -155,7 +155,6 @@ private:
     void measure_if_due(const TimeStep& step, double time, StageClock& clock);
 
     void wake_sand_near_rocks(StageClock& clock);
-    void follow_sleepers();
 
     /// Bodies that keep the sand around them awake.
     std::vector<BodyReach> sand_wakers();
@@ -195,12 +194,11 @@ private:
     const world::World&          world_;
     const Plan                   plan_;
     PaceLimits                   limits_;
-    double                       free_mass_;                ///< kg, of sand and rocks
-    Vec3<double>                 gravity_;                  ///< m/s2
-    std::int64_t                 phase_            = -1;    ///< that has begun here; -1: none
-    bool                         wakes_            = false; ///< whether all sand wakes in the next step
-    std::int64_t                 sleepers_version_ = 0; ///< partition version for which follow_sleepers has been called
-    double                       damping_          = 0;
+    double                       free_mass_;       ///< kg, of sand and rocks
+    Vec3<double>                 gravity_;         ///< m/s2
+    std::int64_t                 phase_   = -1;    ///< that has begun here; -1: none
+    bool                         wakes_   = false; ///< whether all sand wakes in the next step
+    double                       damping_ = 0;
     Measuring                    measuring_;
     LastStep                     last_;
     StopCheck                    why_stop_; ///< empty: no check

@@ -53,16 +53,6 @@ std::vector<BodyReach> Simulation<Exec, Real>::sand_wakers()
                                  {scene_.sleep.distance.value(), edge, scene_.sleep.rest, gravity_.norm()});
 }
 
-/// A rank learns what sleeping sand presses rocks with once it has rows for them.
-template<class Exec, class Real>
-void Simulation<Exec, Real>::follow_sleepers()
-{
-    if (!sleep_follower().move || rigid_->partition_version() == sleepers_version_) { return; }
-    sleepers_version_ = rigid_->partition_version();
-    coupling_->sum_asleep(rigid_->view(), rigid_->sleepers());
-    rigid_->hold_sleepers();
-}
-
 /// Sand beside a rock that has just woken is awake before the rock can move.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::wake_sand_near_rocks(StageClock& clock)
@@ -74,7 +64,6 @@ void Simulation<Exec, Real>::wake_sand_near_rocks(StageClock& clock)
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void                                          Simulation<Exec, Real>::update_sleeping_pages(StageClock&); \
     template void                                          Simulation<Exec, Real>::wake_sand_near_rocks(StageClock&);  \
-    template void                                          Simulation<Exec, Real>::follow_sleepers();                  \
     template typename MpmSolver<Exec, Real>::SleepFollower Simulation<Exec, Real>::sleep_follower();                   \
     template std::vector<BodyReach>                        Simulation<Exec, Real>::sand_wakers()
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)

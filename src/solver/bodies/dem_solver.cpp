@@ -75,12 +75,13 @@ double DemSolver<Exec>::take_commanded_speed()
 }
 
 template<class Exec>
-void DemSolver<Exec>::find_pairs(double dt)
+bool DemSolver<Exec>::find_pairs(double dt)
 {
     update_sleep(state_, lists_, reports_, sleep_, substep_);
     state_.pairs.sleep.wakes = state_.pairs.sleep.wanted;
-    renew_pairs(dt, UnheldRows::go);
+    const bool found         = renew_pairs(dt, UnheldRows::go);
     state_.pairs.sleep.wakes = false;
+    return found;
 }
 
 /// Returns whether pairs were found anew.

@@ -147,8 +147,8 @@ public:
     double take_commanded_speed();
 
     /// Step 3. Lists pairs of bodies, and of bodies and walls, that may touch within dt (update_pairs). Rocks fall
-    /// asleep and wake here.
-    void find_pairs(double dt);
+    /// asleep and wake here. Returns whether pairs were found anew.
+    bool find_pairs(double dt);
 
     /// Passes changes made through view() on to the contacts. find_pairs and command do this themselves.
     void stage() { state_.stage(); }

@@ -76,9 +76,10 @@ void run_unchecked(const ContactSubsteps<Exec, Real>& parts, double dt, std::int
 template<class Exec, class Real>
 void follow_rows(const ContactSubsteps<Exec, Real>& parts)
 {
+    if (parts.coupling == nullptr) { return; }
     const RowMoves<Exec>* moves = parts.bodies.row_moves();
-    if (moves == nullptr || parts.coupling == nullptr) { return; }
-    parts.coupling->follow_rows(moves->to, parts.bodies.view());
+    if (moves != nullptr) { parts.coupling->follow_rows(moves->to, parts.bodies.view()); }
+    follow_sleepers(parts.bodies, *parts.coupling);
 }
 
 /// Synchronises first: launches are asynchronous, and no time would pass between two checks.
@@ -104,6 +105,15 @@ std::int64_t run_batch(const ContactSubsteps<Exec, Real>& parts, double dt, std:
 }
 
 } // namespace
+
+template<class Exec, class Real>
+void follow_sleepers(DemSolver<Exec>& bodies, SandBodyCoupling<Exec, Real>& coupling)
+{
+    dem::SleepingBodies<Exec>& sleepers = bodies.sleepers();
+    if (!sleepers.strewn || !sleepers.ranks) { return; }
+    coupling.sum_asleep(bodies.view(), sleepers);
+    bodies.hold_sleepers();
+}
 
 template<class Exec, class Real>
 void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step, double time, const Pace& pace,
@@ -133,6 +143,7 @@ void run_substeps(const ContactSubsteps<Exec, Real>& parts, const TimeStep& step
 }
 
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
+    template void follow_sleepers(DemSolver<Exec>&, SandBodyCoupling<Exec, Real>&);                                    \
     template void run_substeps(const ContactSubsteps<Exec, Real>&, const TimeStep&, double, const Pace&, StageClock&)
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

@@ -26,6 +26,11 @@ struct ContactSubsteps
     const StopCheck&              why_stop; ///< empty: no check
 };
 
+/// Call when the list of pairs was rebuilt, where there is sand: rows may have changed, and a rank learns what its
+/// sleeping sand presses rocks with once it has rows for them. Does nothing on one rank. Collective.
+template<class Exec, class Real>
+void follow_sleepers(DemSolver<Exec>& bodies, SandBodyCoupling<Exec, Real>& coupling);
+
 /// Runs the contact substeps of a step that begins at `time` (s), with pair lists found anew where a body moves too
 /// far. StoppedInStep when the check says so.
 template<class Exec, class Real>
