@@ -185,13 +185,6 @@ void Simulation<Exec, Real>::repartition_pages()
     if (balance_->repartition(page_loads()) && sand_) { follow_owners(); }
 }
 
-template<class Exec, class Real>
-void Simulation<Exec, Real>::follow_owners()
-{
-    const std::int64_t moved = sand_->follow_owners();
-    if (moved > 0 && sleep_follower().move) { coupling_->send_sleeping_after(sand_->migrated_out()); }
-}
-
 /// Serves a state from another number of ranks: the present owners of pages were chosen for the scene's start.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::repartition_loaded()

@@ -53,6 +53,13 @@ std::vector<BodyReach> Simulation<Exec, Real>::sand_wakers()
                                  {scene_.sleep.distance.value(), edge, scene_.sleep.rest, gravity_.norm()});
 }
 
+template<class Exec, class Real>
+void Simulation<Exec, Real>::follow_owners()
+{
+    const std::int64_t moved = sand_->follow_owners();
+    if (moved > 0 && sleep_follower().move) { coupling_->send_sleeping_after(sand_->migrated_out()); }
+}
+
 /// Sand beside a rock that has just woken is awake before the rock can move.
 template<class Exec, class Real>
 void Simulation<Exec, Real>::wake_sand_near_rocks(StageClock& clock)
@@ -64,6 +71,7 @@ void Simulation<Exec, Real>::wake_sand_near_rocks(StageClock& clock)
 #define TREAD_INSTANTIATE(Exec, Real)                                                                                  \
     template void                                          Simulation<Exec, Real>::update_sleeping_pages(StageClock&); \
     template void                                          Simulation<Exec, Real>::wake_sand_near_rocks(StageClock&);  \
+    template void                                          Simulation<Exec, Real>::follow_owners();                    \
     template typename MpmSolver<Exec, Real>::SleepFollower Simulation<Exec, Real>::sleep_follower();                   \
     template std::vector<BodyReach>                        Simulation<Exec, Real>::sand_wakers()
 TREAD_FOR_BACKENDS_AND_REALS(TREAD_INSTANTIATE)
