@@ -19,9 +19,9 @@ void transfer_records(const BodyState<Exec>& state, StateFile& file, SleepingRec
 {
     std::vector<std::uint64_t> keys;
     for (const SleepingRecord& one : records) { keys.push_back(state.numbers().key_in_scene(one.record.key)); }
-    const auto is_key = accepted_keys(state.world);
-    if (file.exact()) { file.own_or_all("rock_sleep/key", keys, accept::all(is_key, accept::ascending())); }
-    else { file.own_or_all("rock_sleep/key", keys, accept::all(is_key)); }
+    const auto are_keys = accept::all(accepted_keys(state.world), accept::distinct());
+    if (file.exact()) { file.own_or_all("rock_sleep/key", keys, accept::all(are_keys, accept::ascending())); }
+    else { file.own_or_all("rock_sleep/key", keys, are_keys); }
     records.resize(keys.size(), {{0, dem::no_patch(), dem::no_rolling(), Vec3<double>::Zero()}, {}});
     const auto transfer = [&](const char* name, auto value_of)
     {
