@@ -15,11 +15,13 @@ using namespace tread;
 constexpr double spacing = 0.05; ///< m
 constexpr double length  = 3.2;  ///< m
 
-/// A trench of sand, 3.2 x 0.4 x 0.2 m, with geostatic stress.
-const std::string trench_text = R"(
-title = "trench"
+/// A box of a height (m) for sand in cells of 5 cm, and the sand.
+std::string sand_text(double height)
+{
+    return fmt::format(R"(
+title = "sand that may sleep"
 [domain]
-size    = [3.2, 0.4, 0.8]
+size    = [3.2, 0.4, {}]
 gravity = [0.0, 0.0, -9.81]
 [grid]
 spacing = 0.05
@@ -32,6 +34,21 @@ density            = 1600.0
 young              = 1.0e6
 poisson            = 0.3
 friction_angle_deg = 30.0
+)",
+                       height);
+}
+
+const std::string steel_text = R"(
+[[material]]
+name    = "steel"
+model   = "elastic"
+density = 7800.0
+young   = 1.0e9
+poisson = 0.3
+)";
+
+/// A trench of sand, 3.2 x 0.4 x 0.2 m, with geostatic stress.
+const std::string trench_text = sand_text(0.8) + R"(
 [[terrain]]
 material = "sand"
 region   = { box = [[0.0, 0.0, 0.0], [3.2, 0.4, 0.2]] }
@@ -43,13 +60,7 @@ distance = 0.4
 )";
 
 /// A roller that falls 6 cm and then drives.
-const std::string roller_text = R"(
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
+const std::string roller_text = steel_text + R"(
 [[shape]]
 name      = "roller"
 generate  = { kind = "wheel", radius = 0.1, width = 0.2, wall_thickness = 0.04, grousers = 6 }
@@ -81,32 +92,11 @@ duration = 0.5
 )";
 
 /// A slope of 27 degrees, and a wheel at its foot that digs itself in, so that the slope comes down.
-const std::string undercut_text = R"(
-title = "undercut slope"
-[domain]
-size    = [3.2, 0.4, 1.0]
-gravity = [0.0, 0.0, -9.81]
-[grid]
-spacing = 0.05
-[numerics]
-precision = "double"
-[[material]]
-name               = "sand"
-model              = "mohr-coulomb"
-density            = 1600.0
-young              = 1.0e6
-poisson            = 0.3
-friction_angle_deg = 30.0
+const std::string undercut_text = sand_text(1.0) + steel_text + R"(
 [[terrain]]
 material = "sand"
 region   = { box = [[0.0, 0.0, 0.0], [3.2, 0.4, 0.6]] }
 height   = '0.2 + max(0, min(0.4, 0.5 * (1.6 - x)))'
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
 [[contact]]
 between  = ["steel", "sand"]
 friction = 0.6

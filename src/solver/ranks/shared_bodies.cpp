@@ -58,8 +58,7 @@ void number_shares(SharingPlan& plan, const BodyHoldings& held, std::size_t rank
 
 template<class Exec>
 SharedBodies<Exec>::SharedBodies(decomp::Transport<Exec>& transport)
-    : transport_(&transport)
-    , body_(transport.exec(), "shared bodies")
+    : body_(transport.exec(), "shared bodies")
     , place_(transport.exec(), "places of shared bodies")
     , first_(transport.exec(), "shares of bodies")
     , row_(transport.exec(), "rows of shares")

@@ -28,7 +28,7 @@ public:
     void take_rows(const BodyNumbers& numbers);
 
     /// Prepares for exchange_marks(), which a scene without sleep does not need; call before plan().
-    void begin_marks() { mark_.emplace(*transport_, "shares of marks"); }
+    void begin_marks(decomp::Transport<Exec>& transport) { mark_.emplace(transport, "shares of marks"); }
 
     std::int64_t    count() const { return body_.size(); }
     dem::SharedView view();
@@ -55,7 +55,6 @@ private:
     template<class Share>
     void pass_on(Shares<Share>& shares);
 
-    decomp::Transport<Exec>*    transport_;
     std::vector<std::int32_t>   number_; ///< [count], ascending
     Array<Exec, std::int32_t>   body_;   ///< [count], rows, ascending
     Array<Exec, std::int32_t>   place_;  ///< [rows], index in body_; -1: not shared

@@ -70,7 +70,8 @@ void resume_sleep(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies);
 template<class Exec>
 void renumber_sleeping_pairs(const Exec&, Pairs<Exec>& pairs, const Array<Exec, std::int32_t>& row, std::int64_t rows);
 
-/// Lists the bodies that substeps compute: awake ones, and sleepers with a listed pair or an external wrench.
+/// Lists the bodies that substeps compute: awake ones, and sleepers with a listed pair or an external wrench, or that
+/// several ranks hold. Not collective.
 template<class Exec>
 void list_moved_bodies(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const OutsideWrenches& outside);
 
