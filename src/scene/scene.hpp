@@ -74,12 +74,18 @@ struct GridOptions
 /// Largest number of contact substeps in a step; a run with more would not finish in reasonable time.
 inline constexpr std::int64_t most_substeps = 1000000;
 
+/// Largest number of parts of a contact substep, and of parts times contact_share: in 1.6 sqrt(m / K) a stiff body
+/// swings by less than half of its shortest period, so that what others push it with once a substep does not build up.
+inline constexpr std::int64_t most_subcycles       = 8;
+inline constexpr double       most_subcycled_share = 1.6;
+
 struct TimeOptions
 {
     std::optional<double>       dt;       ///< s; empty means "auto"
     std::optional<std::int64_t> substeps; ///< contact substeps per step; empty means "auto"
     double                      contact_share =
         0.2; ///< share of sqrt(m / sum K) used by automatic substeps: docs/theory.md#time-step (measured limit: 1.1)
+    std::int64_t subcycles = 1; ///< most parts of a substep for bodies whose contacts are too stiff for it; 1: none
 
     bool operator==(const TimeOptions&) const = default;
 };

@@ -199,8 +199,13 @@ void Simulation<Exec, Real>::find_contacts(TimeStep& step, double time, StageClo
 {
     if (measured()) { list_contacts(step.dt * static_cast<double>(measuring_.every), clock); }
     require_apart(time);
-    if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, measuring_.pace); }
+    if (plan_.body_contact)
+    {
+        step.substeps  = substeps_of(scene_.time, step.dt, limits_, measuring_.pace);
+        step.subcycles = subcycles_of(scene_.time, step, measuring_.pace);
+    }
     if (step.substeps > scene::most_substeps) { rigid_->refuse_substeps(step, measuring_.pace, time); }
+    if (plan_.body_contact && measured()) { rigid_->mark_stiff(step); }
 }
 
 /// Builds contact lists that are valid for steps of `span` (s) in all.

@@ -29,7 +29,7 @@ public:
     explicit SharedSleep(BodyRanks<Exec>& ranks)
         : ranks_(ranks)
     {
-        ranks.begin_sleep();
+        ranks.begin_marks();
     }
 
     dem::SharedView shared() override { return ranks_.shared().view(); }

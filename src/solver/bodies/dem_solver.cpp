@@ -6,6 +6,7 @@
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
+#include "kernels/dem/motion/subcycle_marks.hpp"
 #include "kernels/dem/motion/substeps.hpp"
 #include "solver/bodies/body_checks.hpp"
 #include "solver/bodies/contact_records.hpp"
@@ -31,6 +32,7 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     if (!world.joints.empty()) { joints_.emplace(exec, scene, world); }
     restore_contacts(state_);
     if (plan.rock_sleep) { begin_sleep(state_); }
+    if (state_.ranks && scene.time.subcycles > 1) { state_.ranks->begin_marks(); }
 }
 
 template<class Exec>
@@ -135,39 +137,55 @@ bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
     if (!std::exchange(lists_.expired, false)) { return false; }
     const double dt = step.dt / static_cast<double>(step.substeps);
     check_before_search(state_, reports_, time + dt * static_cast<double>(done));
-    return renew_pairs(step.dt, UnheldRows::stay);
+    const bool found = renew_pairs(step.dt, UnheldRows::stay);
+    mark_stiff(step);
+    return found;
 }
 
 template<class Exec>
-void DemSolver<Exec>::contact(double dt)
+void DemSolver<Exec>::mark_stiff(const TimeStep& step)
 {
-    dem::evaluate_contacts(substep_exec(), state_.pairs, state_.view(), state_.tables.law, dt);
+    parts_ = static_cast<std::int32_t>(step.subcycles);
+    if (parts_ == 1) { return; }
+    const double substep = step.dt / static_cast<double>(step.substeps);
+    dem::mark_stiff(state_.exec, state_.pairs, state_.view(), substep / state_.scene.time.contact_share,
+                    state_.shared());
+    if (!state_.ranks) { return; }
+    state_.ranks->shared().exchange_marks();
+    dem::mark_shared_stiff(state_.exec, state_.pairs, state_.shared());
 }
 
 template<class Exec>
-void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches& outside)
+void DemSolver<Exec>::contact(double dt, std::int32_t part)
+{
+    dem::evaluate_contacts(substep_exec(), state_.pairs, state_.view(), state_.tables.law, dt, cycle(part));
+}
+
+template<class Exec>
+void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches& outside, std::int32_t part)
 {
     dem::BodyStep<Exec> step = body_step(dt, damping);
     step.motion.outside      = outside;
     step.limit.repeated      = nullptr;
+    step.cycle               = cycle(part);
     if (shares())
     {
         dem::share_wrenches(substep_exec(), step);
         state_.ranks->shared().exchange_wrenches();
     }
     dem::move_bodies(substep_exec(), step);
-    requested(1);
+    if (part == parts_ - 1) { requested(1); }
 }
 
 template<class Exec>
 void DemSolver<Exec>::run(double dt, double damping, std::int64_t count)
 {
-    if (shares())
+    if (shares() || parts_ > 1)
     {
-        for (std::int64_t substep = 0; substep < count; ++substep)
+        for (std::int64_t part = 0; part < count * parts_; ++part)
         {
-            contact(dt);
-            move(dt, damping);
+            contact(dt, static_cast<std::int32_t>(part % parts_));
+            move(dt, damping, {}, static_cast<std::int32_t>(part % parts_));
         }
         return;
     }
@@ -196,7 +214,8 @@ dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
             state_.shared(),
             motions_ ? motions_->view() : dem::PrescribedView{},
             joints_ ? joints_->view() : dem::JointsView{},
-            lists_.limit(state_)};
+            lists_.limit(state_),
+            cycle(0)};
 }
 
 template<class Exec>

@@ -177,12 +177,19 @@ public:
     /// Rebuilds the pair list if it has expired, and returns whether it has.
     bool find_pairs_if_displaced(const TimeStep& step, std::int64_t done, double time);
 
+    /// Chooses the bodies that move in parts of the substeps of a step, where it has such parts; call before the substeps
+    /// and where the pair list was rebuilt in them. Collective.
+    void mark_stiff(const TimeStep& step);
+
+    /// Number of parts of the substeps that mark_stiff was last called for.
+    std::int32_t parts() const { return parts_; }
+
     /// Step 4. Call before the substeps of a step, and where the pair list was rebuilt in it.
     void list_moved(const dem::OutsideWrenches& outside);
 
-    // Step 4. One substep.
-    void contact(double dt);
-    void move(double dt, double damping, const dem::OutsideWrenches& outside = {});
+    // Step 4. One part of a substep of dt (s); contact(0) outside of substeps gives the contacts' energy.
+    void contact(double dt, std::int32_t part = 0);
+    void move(double dt, double damping, const dem::OutsideWrenches& outside = {}, std::int32_t part = 0);
     /// Calls contact and move `count` times, for bodies that touch only each other and walls.
     void run(double dt, double damping, std::int64_t count);
 
@@ -234,6 +241,13 @@ public:
 private:
     bool renew_pairs(double dt, UnheldRows unheld);
 
+    /// Part of a substep; without parts the whole one.
+    dem::Subcycle cycle(std::int32_t part) const
+    {
+        if (parts_ == 1) { return {}; }
+        return {state_.pairs.stiff.pair.data(), state_.pairs.stiff.body.data(), parts_, part};
+    }
+
     /// Number of substeps in dt (s), as the last one was.
     double substeps_in(double dt) const { return substep_ > 0 ? dt / substep_ : 1; }
 
@@ -249,6 +263,7 @@ private:
     NamedMeans<Exec>  means_;
     SleepSettings     sleep_;
     double            substep_       = 0;       ///< s, duration of the last substep
+    std::int32_t      parts_         = 1;       ///< of a substep for stiff bodies
     bool              moved_in_sand_ = false;   ///< whether bodies were last listed for substeps with sand
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 

@@ -52,26 +52,28 @@ TREAD_HD PairSetting setting_of(const PairsView& pairs, const BodyLaw& law, std:
 }
 
 /// Computes the response of a pair from its nodes, which must have been checked (contact_nodes.hpp), by lanes that
-/// share it. Meet: narrow phase, MeetByDistance or MeetByRays.
-template<class Meet>
+/// share it. Meet: narrow phase, MeetByDistance or MeetByRays. Cycle: WholeSubstep or Subcycle.
+template<class Meet, class Cycle>
 struct AnswerPair
 {
     Meet         meet;
     std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
-    double       dt;
+    double       dt; ///< s, of the substep
+    Cycle        cycle;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
+        if (!cycle.is_due(p)) { return; }
         const PairSetting setting = setting_of(pairs, law, bodies, pairs.key[p]);
         const NodeSums    sums    = of_spheres(setting) ? touch_spheres(p, setting) : sum_nodes(p, setting, lanes);
         if (lanes.lane() != 0) { return; }
         const double       peak     = pairs.peak[p]; // all reads come before any write, so that the loads overlap
         const std::int32_t place    = pairs.answers.place[p];
         Patch              patch    = pairs.patch[p];
-        const PairResponse response = answer(setting, sums, patch);
+        const PairResponse response = answer(setting, sums, patch, cycle.span_of_pair(p, dt));
         pairs.answers.store(p, place, response);
         pairs.peak[p]  = std::fmax(peak, response.overlap);
         pairs.patch[p] = patch;
@@ -94,12 +96,12 @@ private:
         return sums_of_spheres(setting.law, contact, setting.motion);
     }
 
-    /// Computes the pair's response and updates its record.
-    TREAD_HD PairResponse answer(const PairSetting& setting, const NodeSums& sums, Patch& patch) const
+    /// Computes the pair's response over `span` (s) and updates its record.
+    TREAD_HD PairResponse answer(const PairSetting& setting, const NodeSums& sums, Patch& patch, double span) const
     {
         if (!(sums.stiffness.overlap > 0)) { return release(setting.law, patch); }
         const Spins spins{setting.spin, setting.spin - setting.motion.spin};
-        return respond(setting.law, sums, setting.motion, spins, setting.arm, patch, dt);
+        return respond(setting.law, sums, setting.motion, spins, setting.arm, patch, span);
     }
 
     /// Calls visit for the lane's nodes that are inside, in the order of the list.
@@ -143,22 +145,26 @@ private:
     }
 };
 
-/// Rolling resistance, in a separate launch and only in scenes that have it.
+/// Rolling resistance, in a separate launch and only in scenes that have it. Cycle as in AnswerPair.
+template<class Cycle>
 struct ResistRolling
 {
     std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
-    double       dt;
+    double       dt; ///< s, of the substep
+    Cycle        cycle;
 
     TREAD_HD void operator()(std::int64_t p) const
     {
+        if (!cycle.is_due(p)) { return; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         const bool         wall = b >= bodies;
         const PairLaw      pair = law_of(pairs, law, bodies, pairs.key[p]);
         const Spins        spins{pairs.body[a].spin, wall ? Vec3<double>::Zero() : pairs.body[b].spin};
         const Resistance   found = resist_rolling(pair, pairs.patch[p], pairs.answers.force[p],
-                                                  pairs.answers.stiffness[p], spins, pairs.rolling[p], dt);
+                                                  pairs.answers.stiffness[p], spins, pairs.rolling[p],
+                                                  cycle.span_of_pair(p, dt));
         pairs.answers.torque[p] += found.moment;
         pairs.answers.second_torque[pairs.answers.place[p]] -= found.moment;
         pairs.answers.energy[p] += found.energy;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kernels/dem/motion/subcycle.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
 // Lists of the nodes of every pair that may enter the other body, in the order of the template's nodes, those of the
@@ -35,8 +36,10 @@ TREAD_HD bool has_many_nodes(const PairsView& pairs, std::int64_t p)
 template<class Exec>
 void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>& pairs);
 
-/// Computes pairs.nodes.found and inside for every listed node at the bodies' present positions.
+/// Computes pairs.nodes.found and inside for every listed node of the pairs that are due in this part of a substep, at
+/// the bodies' present positions.
 template<class Exec>
-void evaluate_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void evaluate_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                    const Subcycle& cycle = {});
 
 } // namespace tread::dem

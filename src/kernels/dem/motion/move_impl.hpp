@@ -46,11 +46,13 @@ TREAD_HD void reduce(BodyShare& share, const Lanes& lanes)
 }
 
 /// Adds the pairs of one body in the order of the list. Pairs in which it is first and pairs in which it is second are
-/// read in the same iteration, so that the loads overlap.
+/// read in the same iteration, so that the loads overlap. Cycle: WholeSubstep or Subcycle.
+template<class Cycle>
 struct GatherPairs
 {
     PairsView    pairs;
     std::int64_t bodies; ///< number of bodies
+    Cycle        cycle;
 
     template<class Lanes>
     TREAD_HD BodyShare operator()(std::int64_t b, const Lanes& lanes) const
@@ -60,8 +62,8 @@ struct GatherPairs
         for (std::int64_t p = pairs.first[b] + lanes.lane(), i = pairs.second[b] + lanes.lane();
              p < first_end || i < second_end; p += lanes.lanes(), i += lanes.lanes())
         {
-            add_first(p < first_end, p, share);
-            add_second(i < second_end, i, share);
+            add_first(p < first_end, b, p, share);
+            add_second(i < second_end, b, i, share);
         }
         reduce(share, lanes);
         return share;
@@ -75,25 +77,33 @@ private:
         return {chosen(there, value[0]), chosen(there, value[1]), chosen(there, value[2])};
     }
 
-    TREAD_HD void add_first(bool there, std::int64_t pair, BodyShare& share) const
+    TREAD_HD void add_first(bool there, std::int64_t b, std::int64_t pair, BodyShare& share) const
     {
-        const std::int64_t p     = there ? pair : 0;
-        const bool         wall  = second_of(pairs.key[p]) >= bodies;
-        const Vec3<double> force = chosen(there, pairs.answers.force[p]);
+        const std::int64_t p      = there ? pair : 0;
+        const bool         wall   = second_of(pairs.key[p]) >= bodies;
+        const double       weight = cycle.weight(b, p);
+        const Vec3<double> force  = weight * chosen(there, pairs.answers.force[p]);
         share.contact.force += force;
-        share.contact.torque += chosen(there, pairs.answers.torque[p]);
+        share.contact.torque += weight * chosen(there, pairs.answers.torque[p]);
         share.contact.stiffness += chosen(there, pairs.answers.stiffness[p]);
-        share.friction += chosen(there, pairs.answers.friction[p]);
-        share.restitution += chosen(there, pairs.answers.restitution[p]);
+        share.friction += chosen(there && cycle.is_due(p), pairs.answers.friction[p]);
+        share.restitution += chosen(there && cycle.is_due(p), pairs.answers.restitution[p]);
         share.wall_force += chosen(wall, force);
     }
 
-    TREAD_HD void add_second(bool there, std::int64_t place, BodyShare& share) const
+    TREAD_HD void add_second(bool there, std::int64_t b, std::int64_t place, BodyShare& share) const
     {
-        const std::int64_t i = there ? place : 0;
-        share.contact.force += chosen(there, pairs.answers.second_force[i]);
-        share.contact.torque += chosen(there, pairs.answers.second_torque[i]);
+        const std::int64_t i      = there ? place : 0;
+        const double       weight = weight_of_second(b, i);
+        share.contact.force += weight * chosen(there, pairs.answers.second_force[i]);
+        share.contact.torque += weight * chosen(there, pairs.answers.second_torque[i]);
         share.contact.stiffness += chosen(there, pairs.answers.second_stiffness[i]);
+    }
+
+    TREAD_HD double weight_of_second(std::int64_t b, std::int64_t i) const
+    {
+        if constexpr (Cycle::divides) { return cycle.weight(b, pairs.by_second[i]); }
+        else { return cycle.weight(b); }
     }
 };
 
@@ -179,8 +189,8 @@ struct Motions
 
 /// Sums the forces on a body, adds them to its ledger, and moves it. Of the lanes that share it, the first one writes.
 /// Damping: Free or Damped; Outside: NothingOutside or SumOutside; Ranks: Alone or Together; Prescription: NoMotions or
-/// Motions.
-template<class Damping, class Outside, class Ranks, class Prescription>
+/// Motions; Cycle: WholeSubstep or Subcycle.
+template<class Damping, class Outside, class Ranks, class Prescription, class Cycle>
 struct Move
 {
     BodiesView    bodies;
@@ -190,11 +200,12 @@ struct Move
     JointWrenches joints;
     SleepWatch*   watch;   ///< of each body; null: none may sleep
     Vec3<double>  gravity; ///< m/s2
-    double        dt;      ///< s
+    double        dt;      ///< s, of the substep
     Damping       damping;
     Outside       outside;
     Ranks         ranks;
     Prescription  prescription;
+    Cycle         cycle;
 
     DisplacementLimit limit;
 
@@ -205,43 +216,47 @@ struct Move
         {
             if (!bodies.is_here(b)) { return; }
         }
+        if (!cycle.moves(b)) { return; }
         // read before the sums, so that the loads overlap with them
         ContactBody     shown = pairs.body != nullptr ? load(pairs.body + b) : contact_body(bodies, b);
         BodyMotion      body  = motion_of(bodies, b, shown);
-        const BodyShare share = pairs.first != nullptr ? GatherPairs{pairs, bodies.count}(b, lanes) : BodyShare::zero();
-        const WrenchShare acting = of_all_ranks(b, {outside(b, lanes), share.contact});
+        const BodyShare share =
+            pairs.first != nullptr ? GatherPairs<Cycle>{pairs, bodies.count, cycle}(b, lanes) : BodyShare::zero();
+        const WrenchShare acting = of_all_ranks(b, {weighted(cycle.weight(b), outside(b, lanes)), share.contact});
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
+        const double        span    = cycle.span_of_body(b, dt);
         if (bodies.is_asleep(b))
         {
-            hold(b, share, contact);
+            hold(b, share, contact, span);
             return;
         }
-        account_contacts(b, share, contact);
+        account_contacts(b, share, contact, span);
         BodyTotal        unused;
+        BodyTotal&       total  = *total_of(b, unused);
         const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, unused));
-        if (joints.place != nullptr) { account_joints(b, mean, *total_of(b, unused)); }
-        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, *total_of(b, unused)); }
-        if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
+        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, span, total);
+        if (joints.place != nullptr) { account_joints(b, mean, total); }
+        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, span, total); }
+        if constexpr (Outside::acts) { account_outside(acting.outside, mean, span, total); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
-        check_displacement_ahead(limit, bodies, b);
+        if (cycle.is_last(b)) { check_displacement_ahead(limit, bodies, b); }
     }
 
 private:
-    /// Holds a sleeper at rest against `pull`, the wrench of awake bodies and sand.
-    TREAD_HD void hold(std::int64_t b, const BodyShare& share, const ContactWrench& pull) const
+    /// Holds a sleeper at rest for `span` (s) against `pull`, the wrench of awake bodies and sand.
+    TREAD_HD void hold(std::int64_t b, const BodyShare& share, const ContactWrench& pull, double span) const
     {
         SleepWatch& load = watch[b];
-        account_contacts(b, share, pull + load.held);
-        load.impulse += dt * pull.force;
-        load.angular_impulse += dt * pull.torque;
-        if (bodies.is_owned(b)) { totals[b].holding_impulse -= dt * pull.force; }
+        account_contacts(b, share, pull + load.held, span);
+        load.impulse += span * pull.force;
+        load.angular_impulse += span * pull.torque;
+        if (bodies.is_owned(b)) { totals[b].holding_impulse -= span * pull.force; }
     }
 
     TREAD_HD MeanMotion integrate(std::int64_t b, BodyMotion& body, const ContactWrench& contact,
-                                  const Vec3<double>& pull, BodyTotal& total) const
+                                  const Vec3<double>& pull, double span, BodyTotal& total) const
     {
         if constexpr (Prescription::act)
         {
@@ -249,12 +264,12 @@ private:
             {
                 ContactImpulse reaction{Vec3<double>::Zero(), Vec3<double>::Zero()};
                 MeanMotion     mean =
-                    integrate_prescribed(prescription.view.motion[b], body, contact, pull, dt, total, reaction);
+                    integrate_prescribed(prescription.view.motion[b], body, contact, pull, span, total, reaction);
                 if (bodies.is_owned(b)) { add(reaction, prescription.view.reaction[b]); }
                 return mean;
             }
         }
-        return integrate_body(body, contact, pull, damping(bodies, b), dt, total);
+        return integrate_body(body, contact, pull, damping(bodies, b), span, total);
     }
 
     TREAD_HD static void add(const ContactImpulse& impulse, ContactImpulse& sum)
@@ -283,25 +298,43 @@ private:
         return totals + b;
     }
 
-    TREAD_HD void account_contacts(std::int64_t b, const BodyShare& share, const ContactWrench& contact) const
+    /// Notes the wrench, which acts for `span` (s).
+    TREAD_HD void account_contacts(std::int64_t b, const BodyShare& share, const ContactWrench& contact,
+                                   double span) const
     {
-        bodies.force[b]     = contact.force;
-        bodies.torque[b]    = contact.torque;
-        bodies.stiffness[b] = contact.stiffness;
-        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
+        note_wrench(b, contact, span);
+        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += span * share.wall_force; }
         if (share.friction != 0) { totals[b].friction += share.friction; }
         if (share.restitution != 0) { totals[b].restitution += share.restitution; }
         if (b < named.count && bodies.is_owned(b))
         {
-            named.impulse[b].linear += dt * contact.force;
-            named.impulse[b].angular += dt * contact.torque;
+            named.impulse[b].linear += span * contact.force;
+            named.impulse[b].angular += span * contact.torque;
         }
     }
 
-    TREAD_HD void account_outside(const ContactWrench& wrench, const MeanMotion& mean, BodyTotal& total) const
+    /// Sets the body's mean wrench in the substep so far.
+    TREAD_HD void note_wrench(std::int64_t b, const ContactWrench& contact, double span) const
+    {
+        bodies.stiffness[b] = contact.stiffness;
+        if constexpr (Cycle::divides)
+        {
+            const double share = span / dt, last = cycle.part == 0 ? 0 : 1;
+            bodies.force[b]  = last * bodies.force[b] + share * contact.force;
+            bodies.torque[b] = last * bodies.torque[b] + share * contact.torque;
+        }
+        else
+        {
+            bodies.force[b]  = contact.force;
+            bodies.torque[b] = contact.torque;
+        }
+    }
+
+    TREAD_HD static void account_outside(const ContactWrench& wrench, const MeanMotion& mean, double span,
+                                         BodyTotal& total)
     {
         const double power = wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity);
-        if (power != 0) { total.sand_work += dt * power; }
+        if (power != 0) { total.sand_work += span * power; }
     }
 
     TREAD_HD ContactWrench with_joints(std::int64_t b, const ContactWrench& contact) const
@@ -323,10 +356,11 @@ private:
     }
 
     /// Adds the work of the constraint that carries a share of the weight, as for locked degrees of freedom.
-    TREAD_HD void account_carried_weight(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
+    TREAD_HD static void account_carried_weight(const Vec3<double>& force, const MeanMotion& mean, double span,
+                                                BodyTotal& total)
     {
-        total.holding_impulse += dt * force;
-        total.holding_work += dt * force.dot(mean.velocity);
+        total.holding_impulse += span * force;
+        total.holding_work += span * force.dot(mean.velocity);
     }
 
     /// Updates the record that the contacts of the next substep read.
@@ -340,36 +374,42 @@ private:
     }
 };
 
-/// Computes this rank's share of the wrench on a body that several ranks integrate.
+/// Computes this rank's share of the wrench on a body that several ranks integrate. Cycle: WholeSubstep or Subcycle.
+template<class Cycle>
 struct ShareWrench
 {
     PairsView    pairs;  ///< first = null: pairs were never found
     std::int64_t bodies; ///< number of bodies
     SumOutside   outside;
     SharedView   shared;
+    Cycle        cycle;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t i, const Lanes& lanes) const
     {
-        const std::int64_t b     = shared.body[i];
-        const BodyShare    share = pairs.first != nullptr ? GatherPairs{pairs, bodies}(b, lanes) : BodyShare::zero();
-        const WrenchShare  own{outside(b, lanes), share.contact};
+        const std::int64_t b = shared.body[i];
+        if (!cycle.moves(b)) { return; }
+        const BodyShare share =
+            pairs.first != nullptr ? GatherPairs<Cycle>{pairs, bodies, cycle}(b, lanes) : BodyShare::zero();
+        const WrenchShare own{weighted(cycle.weight(b), outside(b, lanes)), share.contact};
         if (lanes.lane() == 0) { shared.wrench[i] = own; }
     }
 };
 
-/// Makes the ShareWrench of the step.
-template<class Exec>
-ShareWrench make_share(const BodyStep<Exec>& step)
+/// Calls run with the ShareWrench of the step.
+template<class Exec, class Run>
+void with_share(const BodyStep<Exec>& step, Run run)
 {
-    return {step.pairs.view(), step.bodies.count, {step.motion.outside}, step.shared};
+    by_cycle(step.cycle,
+             [&](const auto& cycle)
+             { run(ShareWrench{step.pairs.view(), step.bodies.count, {step.motion.outside}, step.shared, cycle}); });
 }
 
 /// Makes the Move of the step.
-template<class Exec, class Damping, class Outside, class Ranks, class Prescription>
-Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step, const Damping& damping,
-                                                      const Outside& outside, const Ranks& ranks,
-                                                      const Prescription& prescription)
+template<class Exec, class Damping, class Outside, class Ranks, class Prescription, class Cycle = WholeSubstep>
+Move<Damping, Outside, Ranks, Prescription, Cycle> make_move(const BodyStep<Exec>& step, const Damping& damping,
+                                                             const Outside& outside, const Ranks& ranks,
+                                                             const Prescription& prescription, const Cycle& cycle = {})
 {
     return {step.bodies,
             step.pairs.view(),
@@ -383,6 +423,7 @@ Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step
             outside,
             ranks,
             prescription,
+            cycle,
             step.limit};
 }
 
@@ -402,6 +443,16 @@ void with_motions(const BodyStep<Exec>& step, const Outside& outside, const Rank
     else { run(make_move(step, Damped{step.motion.damping}, outside, ranks, Motions{step.prescribed})); }
 }
 
+/// Calls run with the Move for a part of a subcycled substep. One Move serves any damping and any outside.
+template<class Exec, class Ranks, class Run>
+void with_subcycle(const BodyStep<Exec>& step, const Ranks& ranks, Run run)
+{
+    const SumOutside outside{step.motion.outside};
+    const Damped     damping{step.motion.damping};
+    if (step.prescribed.motion == nullptr) { run(make_move(step, damping, outside, ranks, NoMotions{}, step.cycle)); }
+    else { run(make_move(step, damping, outside, ranks, Motions{step.prescribed}, step.cycle)); }
+}
+
 /// Calls run with the Move for the motion. Kernels for each combination would take long to compile: bodies of several
 /// ranks and prescribed motions always sum the external wrenches. One rank may have sand on a body and another none,
 /// and both must integrate it by the same code.
@@ -409,7 +460,12 @@ template<class Exec, class Run>
 void with_move(const BodyStep<Exec>& step, Run run)
 {
     const SumOutside outside{step.motion.outside};
-    if (step.bodies.role != nullptr) { with_motions(step, outside, Together{step.shared}, run); }
+    if (step.cycle.parts > 1)
+    {
+        if (step.bodies.role != nullptr) { with_subcycle(step, Together{step.shared}, run); }
+        else { with_subcycle(step, Alone{}, run); }
+    }
+    else if (step.bodies.role != nullptr) { with_motions(step, outside, Together{step.shared}, run); }
     else if (step.motion.outside.run != nullptr || step.prescribed.motion != nullptr)
     {
         with_motions(step, outside, Alone{}, run);

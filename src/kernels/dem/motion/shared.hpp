@@ -40,7 +40,7 @@ struct SharedView
     WrenchShare*    wrench    = nullptr; ///< [rows], this rank's own shares first: [count]
     StiffnessShare* stiffness = nullptr; ///< [rows], likewise
     double*         speed     = nullptr; ///< [rows], likewise: m/s, maximum speed of the bodies near it
-    std::int32_t*   mark      = nullptr; ///< [rows], likewise: of the sleep of bodies
+    std::int32_t*   mark      = nullptr; ///< [rows], likewise: of the sleep of bodies, or of what is subcycled
 
     TREAD_HD bool is_shared(std::int64_t b) const { return place != nullptr && place[b] >= 0; }
 };

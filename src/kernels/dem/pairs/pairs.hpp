@@ -171,6 +171,20 @@ struct AllowedDisplacement
     Array<Exec, double> per_step;      ///< bounding radii, of bodies here: extra Verlet skin for one further step
 };
 
+/// Marks of what is subcycled (motion/subcycle.hpp); empty in a scene without subcycling.
+template<class Exec>
+struct StiffMarks
+{
+    explicit StiffMarks(const Exec& exec)
+        : pair(exec, "stiff pair marks")
+        , body(exec, "stiff body marks")
+    {
+    }
+
+    Array<Exec, std::int32_t> pair; ///< 1: a pair of a body whose contacts are too stiff for a substep
+    Array<Exec, std::int32_t> body; ///< 1: a body of such a pair
+};
+
 /// The nodes of a cluster that may enter the other body of a pair.
 struct NearCluster
 {
@@ -228,6 +242,7 @@ struct Pairs
         , jointed(exec, "pairs of jointed bodies")
         , sizes(exec)
         , displacement(exec)
+        , stiff(exec)
         , sleep(exec)
         , search(exec)
         , measure(exec, "pair measures")
@@ -276,6 +291,7 @@ struct Pairs
     Array<Exec, std::uint64_t> jointed;            ///< keys of pairs that never touch, ascending; set once
     BodySizes<Exec>            sizes;
     AllowedDisplacement<Exec>  displacement;
+    StiffMarks<Exec>           stiff;
     SleepingBodies<Exec>       sleep;
 
     // Scratch memory.
