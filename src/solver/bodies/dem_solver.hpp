@@ -242,10 +242,9 @@ private:
     bool renew_pairs(double dt, UnheldRows unheld);
 
     /// Part of a substep; without parts the whole one.
-    dem::Subcycle cycle(std::int32_t part) const
+    dem::Subcycle cycle(std::int32_t part)
     {
-        if (parts_ == 1) { return {}; }
-        return {state_.pairs.stiff.pair.data(), state_.pairs.stiff.body.data(), parts_, part};
+        return parts_ == 1 ? dem::Subcycle{} : state_.pairs.stiff.cycle(parts_, part);
     }
 
     /// Number of substeps in dt (s), as the last one was.

@@ -18,18 +18,13 @@ class Subcycles : public DemTest<Exec>
 protected:
     using Scene = typename DemTest<Exec>::Scene;
 
-    dem::Subcycle cycle(Scene& scene, std::int32_t parts, std::int32_t part) const
-    {
-        return {scene.pairs.stiff.pair.data(), scene.pairs.stiff.body.data(), parts, part};
-    }
-
     /// Runs `count` substeps of dt (s) in parts; the list must be found and the marks made.
     void run(Scene& scene, double dt, int count, std::int32_t parts)
     {
         for (int i = 0; i < count * parts; ++i)
         {
             dem::BodyStep<Exec> step = scene.step(dt);
-            step.cycle               = cycle(scene, parts, i % parts);
+            step.cycle               = scene.pairs.stiff.cycle(parts, i % parts);
             evaluate_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), dt, step.cycle);
             move_bodies(this->exec(), step);
         }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/dem/motion/subcycle.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
 namespace tread::dem

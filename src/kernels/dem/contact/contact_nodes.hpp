@@ -1,6 +1,5 @@
 #pragma once
 
-#include "kernels/dem/motion/subcycle.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
 // Lists of the nodes of every pair that may enter the other body, in the order of the template's nodes, those of the

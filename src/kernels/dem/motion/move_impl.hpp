@@ -58,15 +58,28 @@ struct GatherPairs
     TREAD_HD BodyShare operator()(std::int64_t b, const Lanes& lanes) const
     {
         BodyShare          share     = BodyShare::zero();
+        const Way          way       = way_of(b);
         const std::int64_t first_end = pairs.first[b + 1], second_end = pairs.second[b + 1];
         for (std::int64_t p = pairs.first[b] + lanes.lane(), i = pairs.second[b] + lanes.lane();
              p < first_end || i < second_end; p += lanes.lanes(), i += lanes.lanes())
         {
-            add_first(p < first_end, b, p, share);
-            add_second(i < second_end, b, i, share);
+            add_first(p < first_end, p, way, share);
+            add_second(i < second_end, i, way, share);
         }
         reduce(share, lanes);
         return share;
+    }
+
+    /// m, way of a body in the substep before this part; nothing where substeps have no parts.
+    struct NoWay
+    {
+    };
+    using Way = std::conditional_t<Cycle::divides, Vec3<double>, NoWay>;
+
+    TREAD_HD Way way_of(std::int64_t b) const
+    {
+        if constexpr (Cycle::divides) { return cycle.way(b, pairs.body[b].position); }
+        else { return {}; }
     }
 
 private:
@@ -77,33 +90,34 @@ private:
         return {chosen(there, value[0]), chosen(there, value[1]), chosen(there, value[2])};
     }
 
-    TREAD_HD void add_first(bool there, std::int64_t b, std::int64_t pair, BodyShare& share) const
+    TREAD_HD void add_first(bool there, std::int64_t pair, const Way& way, BodyShare& share) const
     {
-        const std::int64_t p      = there ? pair : 0;
-        const bool         wall   = second_of(pairs.key[p]) >= bodies;
-        const double       weight = cycle.weight(b, p);
-        const Vec3<double> force  = weight * chosen(there, pairs.answers.force[p]);
+        const std::int64_t p     = there ? pair : 0;
+        const bool         wall  = second_of(pairs.key[p]) >= bodies;
+        const Vec3<double> force = chosen(there, pairs.answers.force[p]);
         share.contact.force += force;
-        share.contact.torque += weight * chosen(there, pairs.answers.torque[p]);
+        share.contact.torque += chosen(there, pairs.answers.torque[p]);
         share.contact.stiffness += chosen(there, pairs.answers.stiffness[p]);
         share.friction += chosen(there && cycle.is_due(p), pairs.answers.friction[p]);
         share.restitution += chosen(there && cycle.is_due(p), pairs.answers.restitution[p]);
         share.wall_force += chosen(wall, force);
+        if constexpr (Cycle::divides) { hold_line(p, force, way, share); }
     }
 
-    TREAD_HD void add_second(bool there, std::int64_t b, std::int64_t place, BodyShare& share) const
+    TREAD_HD void add_second(bool there, std::int64_t place, const Way& way, BodyShare& share) const
     {
-        const std::int64_t i      = there ? place : 0;
-        const double       weight = weight_of_second(b, i);
-        share.contact.force += weight * chosen(there, pairs.answers.second_force[i]);
-        share.contact.torque += weight * chosen(there, pairs.answers.second_torque[i]);
+        const std::int64_t i     = there ? place : 0;
+        const Vec3<double> force = chosen(there, pairs.answers.second_force[i]);
+        share.contact.force += force;
+        share.contact.torque += chosen(there, pairs.answers.second_torque[i]);
         share.contact.stiffness += chosen(there, pairs.answers.second_stiffness[i]);
+        if constexpr (Cycle::divides) { hold_line(pairs.by_second[i], force, way, share); }
     }
 
-    TREAD_HD double weight_of_second(std::int64_t b, std::int64_t i) const
+    /// Corrects the torque of a pair that is not due: its force stays on its line while the body's centre moves.
+    TREAD_HD void hold_line(std::int64_t p, const Vec3<double>& force, const Way& way, BodyShare& share) const
     {
-        if constexpr (Cycle::divides) { return cycle.weight(b, pairs.by_second[i]); }
-        else { return cycle.weight(b); }
+        if (!cycle.is_due(p)) { share.contact.torque += force.cross(way); }
     }
 };
 
@@ -141,6 +155,16 @@ struct SumOutside
         return sum;
     }
 };
+
+/// Returns the wrench of sand on a body at `position` (m) in a part of a substep: its force stays on its line while the
+/// body's centre moves.
+template<class Cycle>
+TREAD_HD ContactWrench held_line(const Cycle& cycle, std::int64_t b, const Vec3<double>& position,
+                                 const ContactWrench& outside)
+{
+    if constexpr (!Cycle::divides) { return outside; }
+    else { return {outside.force, outside.torque + outside.force.cross(cycle.way(b, position)), outside.stiffness}; }
+}
 
 /// No local damping.
 struct Free
@@ -222,7 +246,7 @@ struct Move
         BodyMotion      body  = motion_of(bodies, b, shown);
         const BodyShare share =
             pairs.first != nullptr ? GatherPairs<Cycle>{pairs, bodies.count, cycle}(b, lanes) : BodyShare::zero();
-        const WrenchShare acting = of_all_ranks(b, {weighted(cycle.weight(b), outside(b, lanes)), share.contact});
+        const WrenchShare acting = of_all_ranks(b, {held_line(cycle, b, shown.position, outside(b, lanes)), share.contact});
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
         const double        span    = cycle.span_of_body(b, dt);
@@ -239,6 +263,7 @@ struct Move
         if (joints.place != nullptr) { account_joints(b, mean, total); }
         if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, span, total); }
         if constexpr (Outside::acts) { account_outside(acting.outside, mean, span, total); }
+        cycle.begin(b, shown.position);
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
         if (cycle.is_last(b)) { check_displacement_ahead(limit, bodies, b); }
@@ -302,7 +327,9 @@ private:
     TREAD_HD void account_contacts(std::int64_t b, const BodyShare& share, const ContactWrench& contact,
                                    double span) const
     {
-        note_wrench(b, contact, span);
+        bodies.force[b]     = contact.force;
+        bodies.torque[b]    = contact.torque;
+        bodies.stiffness[b] = contact.stiffness;
         if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += span * share.wall_force; }
         if (share.friction != 0) { totals[b].friction += share.friction; }
         if (share.restitution != 0) { totals[b].restitution += share.restitution; }
@@ -310,23 +337,6 @@ private:
         {
             named.impulse[b].linear += span * contact.force;
             named.impulse[b].angular += span * contact.torque;
-        }
-    }
-
-    /// Sets the body's mean wrench in the substep so far.
-    TREAD_HD void note_wrench(std::int64_t b, const ContactWrench& contact, double span) const
-    {
-        bodies.stiffness[b] = contact.stiffness;
-        if constexpr (Cycle::divides)
-        {
-            const double share = span / dt, last = cycle.part == 0 ? 0 : 1;
-            bodies.force[b]  = last * bodies.force[b] + share * contact.force;
-            bodies.torque[b] = last * bodies.torque[b] + share * contact.torque;
-        }
-        else
-        {
-            bodies.force[b]  = contact.force;
-            bodies.torque[b] = contact.torque;
         }
     }
 
@@ -391,7 +401,7 @@ struct ShareWrench
         if (!cycle.moves(b)) { return; }
         const BodyShare share =
             pairs.first != nullptr ? GatherPairs<Cycle>{pairs, bodies, cycle}(b, lanes) : BodyShare::zero();
-        const WrenchShare own{weighted(cycle.weight(b), outside(b, lanes)), share.contact};
+        const WrenchShare own{held_line(cycle, b, pairs.body[b].position, outside(b, lanes)), share.contact};
         if (lanes.lane() == 0) { shared.wrench[i] = own; }
     }
 };

@@ -22,12 +22,6 @@ TREAD_HD ContactWrench operator+(const ContactWrench& a, const ContactWrench& b)
     return {a.force + b.force, a.torque + b.torque, a.stiffness + b.stiffness};
 }
 
-/// Multiplies force and torque; what the wrench is as stiff as does not change.
-TREAD_HD ContactWrench weighted(double weight, const ContactWrench& a)
-{
-    return {weight * a.force, weight * a.torque, a.stiffness};
-}
-
 /// External wrenches on bodies (not from other bodies or walls), in parts that the integration sums for each body.
 struct OutsideWrenches
 {

@@ -5,9 +5,9 @@
 #include "kernels/dem/motion/outside.hpp"
 
 // Subcycling: bodies whose contacts are too stiff for a substep take it in parts, with all bodies that they may touch.
-// Pairs of a stiff body are evaluated in each part. All other pairs, and sand, are evaluated in the first part for the
-// whole substep: what they push in it is given to a subcycled body at once (an impulse multiple-time-step method:
-// Tuckerman, Berne and Martyna, J. Chem. Phys. 97, 1990, 1992). So both sides of a pair get the same impulse.
+// Pairs of a stiff body are evaluated in each part. All other pairs, and sand, are evaluated in the first part, and push
+// for the whole substep with the same force along the same line: so both sides of a pair get the same impulse and
+// angular impulse, and what rests in equilibrium stays so (docs/theory.md#subcycles).
 namespace tread::dem
 {
 
@@ -18,6 +18,7 @@ struct Subcycle
 
     const std::int32_t* pair  = nullptr; ///< of each pair: 1 if one of its bodies is stiff
     const std::int32_t* body  = nullptr; ///< of each body: 1 if one of its pairs is marked
+    Vec3<double>*       start = nullptr; ///< m, position of each marked body when the substep began
     std::int32_t        parts = 1;       ///< of a substep
     std::int32_t        part  = 0;       ///< present one
 
@@ -33,10 +34,17 @@ struct Subcycle
     /// s, time that body b moves in this part.
     TREAD_HD double span_of_body(std::int64_t b, double dt) const { return body[b] != 0 ? dt / parts : dt; }
 
-    /// Factor of a force on body b that is constant in the substep, in this part.
-    TREAD_HD double weight(std::int64_t b) const { return body[b] == 0 ? 1 : part == 0 ? parts : 0; }
-    /// Likewise of the response of pair p.
-    TREAD_HD double weight(std::int64_t b, std::int64_t p) const { return pair[p] != 0 ? 1 : weight(b); }
+    /// Notes where body b is (m), before it moves.
+    TREAD_HD void begin(std::int64_t b, const Vec3<double>& position) const
+    {
+        if (part == 0 && body[b] != 0) { start[b] = position; }
+    }
+    /// m, way of body b since the substep began; `position`: m, at present.
+    TREAD_HD Vec3<double> way(std::int64_t b, const Vec3<double>& position) const
+    {
+        if (part == 0) { return Vec3<double>::Zero(); }
+        return position - start[b];
+    }
 };
 
 /// All bodies take a substep at once.
@@ -49,8 +57,7 @@ struct WholeSubstep
     TREAD_HD static constexpr bool   is_last(std::int64_t) { return true; }
     TREAD_HD static constexpr double span_of_pair(std::int64_t, double dt) { return dt; }
     TREAD_HD static constexpr double span_of_body(std::int64_t, double dt) { return dt; }
-    TREAD_HD static constexpr double weight(std::int64_t) { return 1; }
-    TREAD_HD static constexpr double weight(std::int64_t, std::int64_t) { return 1; }
+    TREAD_HD static constexpr void   begin(std::int64_t, const Vec3<double>&) {}
 };
 
 /// Calls run with the Subcycle, or with WholeSubstep where it has one part.

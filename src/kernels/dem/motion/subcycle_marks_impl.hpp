@@ -64,6 +64,7 @@ void mark_stiff(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     using namespace subcycle_steps;
     pairs.stiff.pair.resize(pairs.key.size());
     pairs.stiff.body.resize(bodies.count);
+    pairs.stiff.start.resize(bodies.count);
     pairs.stiff.body.fill_zero();
     for_each(exec, "stiff pairs", pairs.key.size(),
              MarkPair{bodies, pairs.view(), pairs.expected_stiffness.data(), shortest, pairs.stiff.pair.data(),

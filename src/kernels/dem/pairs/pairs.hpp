@@ -13,6 +13,7 @@
 #include "kernels/dem/contact/ray_kern.hpp"
 #include "kernels/dem/contact/rolling_kern.hpp"
 #include "kernels/dem/motion/shared.hpp"
+#include "kernels/dem/motion/subcycle.hpp"
 #include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "kernels/dem/templates.hpp"
 
@@ -178,11 +179,19 @@ struct StiffMarks
     explicit StiffMarks(const Exec& exec)
         : pair(exec, "stiff pair marks")
         , body(exec, "stiff body marks")
+        , start(exec, "stiff body positions")
     {
     }
 
-    Array<Exec, std::int32_t> pair; ///< 1: a pair of a body whose contacts are too stiff for a substep
-    Array<Exec, std::int32_t> body; ///< 1: a body of such a pair
+    Array<Exec, std::int32_t> pair;  ///< 1: a pair of a body whose contacts are too stiff for a substep
+    Array<Exec, std::int32_t> body;  ///< 1: a body of such a pair
+    Array<Exec, Vec3<double>> start; ///< m, of marked bodies when the substep began
+
+    /// The present part of a substep in so many.
+    Subcycle cycle(std::int32_t parts, std::int32_t part)
+    {
+        return {pair.data(), body.data(), start.data(), parts, part};
+    }
 };
 
 /// The nodes of a cluster that may enter the other body of a pair.
