@@ -92,7 +92,7 @@ Keys<TimeOptions> time_keys()
         optional("subcycles", "", &TimeOptions::subcycles, integer<std::int64_t>(1, most_subcycles),
                  "Parts of a substep in which bodies move whose contacts are too stiff for it, with what they may "
                  "touch; automatic substeps are up to as many times longer, which pays where such bodies are few. "
-                 "Times contact_share it is at most 1.6. 1 moves all bodies alike."),
+                 "1 moves all bodies alike; a scene with joints takes no other."),
     };
 }
 

@@ -74,10 +74,8 @@ struct GridOptions
 /// Largest number of contact substeps in a step; a run with more would not finish in reasonable time.
 inline constexpr std::int64_t most_substeps = 1000000;
 
-/// Largest number of parts of a contact substep, and of parts times contact_share: in 1.6 sqrt(m / K) a stiff body
-/// swings by less than half of its shortest period, so that what others push it with once a substep does not build up.
-inline constexpr std::int64_t most_subcycles       = 8;
-inline constexpr double       most_subcycled_share = 1.6;
+/// Largest number of parts of a contact substep.
+inline constexpr std::int64_t most_subcycles = 8;
 
 struct TimeOptions
 {

@@ -221,25 +221,13 @@ void require_gravity(Checker& checker)
     checker.report(at, "gravity", "missing", vector3(acceleration()).accepted + " (m/s2), or gravity_size");
 }
 
-/// Checks whether bodies may take substeps in parts.
+/// Bodies with joints move together.
 void validate_subcycles(const Scene& scene, Checker& checker)
 {
-    const TableAt     at{"time"};
-    const TimeOptions time = scene.time;
-    if (time.subcycles == 1 || !checker.sound(at, {"subcycles", "contact_share"})) { return; }
-    const double share = static_cast<double>(time.subcycles) * time.contact_share;
-    if (share > most_subcycled_share * (1 + 1e-9))
-    {
-        checker.report(at, "subcycles",
-                       fmt::format("{} times contact_share = {} is {:.3g}", time.subcycles, time.contact_share, share),
-                       fmt::format("at most {:.0f}, so that the product is at most {}",
-                                   std::max(1.0, std::floor(most_subcycled_share / time.contact_share)),
-                                   most_subcycled_share));
-    }
-    if (!scene.joints.empty())
-    {
-        checker.report(at, "subcycles", "bodies with joints move together", "1, or a scene without [[joint]]");
-    }
+    const TableAt at{"time"};
+    if (scene.time.subcycles == 1 || scene.joints.empty() || !checker.sound(at, {"subcycles"})) { return; }
+    checker.report(at, "subcycles", fmt::format("{} in a scene with [[joint]]", scene.time.subcycles),
+                   "1, or no [[joint]]");
 }
 
 /// Checks limitations of a refined grid; where its boxes may lie is checked when the world is built.
