@@ -220,6 +220,7 @@ void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
         };
         clock.run(exec_, stage::pairs, find);
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
+        measuring_.pace.shortest_sand    = rigid_->shortest_sand();
         wake_sand_near_rocks(clock);
     }
     if (!coupling_) { return; }

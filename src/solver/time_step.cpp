@@ -67,6 +67,10 @@ std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const Pac
     if (options.substeps) { return *options.substeps; }
     double needed = 1;
     if (pace.shortest_contact > 0) { needed = std::max(needed, std::ceil(dt / longest_substep(options, pace))); }
+    if (pace.shortest_sand > 0)
+    {
+        needed = std::max(needed, std::ceil(dt / (options.contact_share * pace.shortest_sand)));
+    }
     if (limits.smallest_body > 0)
     {
         const double displacement = dt * pace.largest_speed / (displacement_bound * limits.smallest_body);

@@ -15,6 +15,7 @@ struct Pace
     double largest_speed    = 0; ///< m/s, of points and bodies
     double stiffest_point   = 0; ///< 1/s2, k/m_p of the stiffest live sand-body contact
     double shortest_contact = 0; ///< s, min over bodies of sqrt(m / sum of K); 0 = no body contact
+    double shortest_sand    = 0; ///< s, the same of the stiffness of sand alone, if substeps may have parts; 0 = none
     double overlap          = 0; ///< largest overlap of bodies over radius
 };
 
@@ -44,7 +45,7 @@ inline constexpr double point_contact_bound = 0.5; ///< bound on k dt^2 / m_p, d
 inline constexpr double displacement_bound  = 0.3; ///< v dt over the spacing, or v dt/N over the smallest body
 
 /// Chooses the step within the limits c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest sand-body
-/// contact, dt/N <= contact_share subcycles sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. It grows by at most 5 % a step.
+/// contact, dt/N <= contact_share subcycles sqrt(m / sum K), dt/N <= contact_share sqrt(m / sum K of sand), v dt/N <= 0.3 of the smallest body. It grows by at most 5 % a step.
 /// Values fixed by the scene are used unchanged.
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
 

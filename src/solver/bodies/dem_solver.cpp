@@ -32,7 +32,8 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     if (!world.joints.empty()) { joints_.emplace(exec, scene, world); }
     restore_contacts(state_);
     if (plan.rock_sleep) { begin_sleep(state_); }
-    if (state_.ranks && scene.time.subcycles > 1) { state_.ranks->begin_marks(); }
+    state_.pairs.stiff.wanted = plan.subcycles;
+    if (state_.ranks && plan.subcycles) { state_.ranks->begin_marks(); }
 }
 
 template<class Exec>
@@ -109,6 +110,14 @@ double DemSolver<Exec>::shortest_contact()
 {
     return smallest_over_ranks(state_.communicator(),
                                dem::smallest_contact_time(state_.exec, state_.pairs, state_.view()));
+}
+
+template<class Exec>
+double DemSolver<Exec>::shortest_sand()
+{
+    if (!state_.pairs.stiff.wanted) { return 0; }
+    return smallest_over_ranks(state_.communicator(),
+                               dem::smallest_sand_time(state_.exec, state_.pairs, state_.view()));
 }
 
 template<class Exec>

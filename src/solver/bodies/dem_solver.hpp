@@ -156,6 +156,9 @@ public:
     /// Minimum over bodies of sqrt(m / sum K), s, over contacts that are live or may begin in the step; 0 = none.
     double shortest_contact();
 
+    /// s, the same of the stiffness of sand alone, where substeps may have parts; 0 elsewhere. Collective.
+    double shortest_sand();
+
     /// Throws NumericalError: a step would take too many substeps; names the body that demands them.
     [[noreturn]] void refuse_substeps(const TimeStep& step, const Pace& pace, double time);
 

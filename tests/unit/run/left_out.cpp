@@ -119,6 +119,14 @@ TEST(LeftOut, RocksAlone)
     expect_uses(without_terrain(test::sand_text) + above, bodies + pairs + pairs_without_sand);
 }
 
+/// Bodies whose contacts are too stiff for a substep are marked; nothing else is launched for them.
+TEST(LeftOut, RocksInParts)
+{
+    const Part parts = {{"stiff body marks", "stiff body positions", "stiff pair marks"}, {"stiff pairs"}};
+    expect_uses(without_terrain(test::sand_text) + above + "[time]\nsubcycles = 2\n",
+                bodies + pairs + pairs_without_sand + parts);
+}
+
 TEST(LeftOut, AWheelOnRocks)
 {
     expect_uses(without_terrain(low_wheel()) + above, wheel + pairs + pairs_without_sand + pairs_of_a_large_body);
