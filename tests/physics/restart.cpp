@@ -143,8 +143,7 @@ TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
 /// Saved while some rocks move in parts of the substeps.
 TYPED_TEST(Restart, OfRocksInPartsGivesTheSameBits)
 {
-    this->expect_same_bits(test::sand_text + test::rocks_text + "placement = \"rain\"\n" + test::thrown_roller_text +
-                           "[time]\nsubcycles = 3\n");
+    this->expect_same_bits(test::sand_text + test::rocks_text + test::thrown_roller_text + "[time]\nsubcycles = 3\n");
 }
 
 /// Saved while the motor works against its largest torque; a joint reaches its stop and another is held by its spring.
