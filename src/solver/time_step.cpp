@@ -97,7 +97,8 @@ TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits
         step              = {bound.dt, 1, bound.name};
         if (last_dt > 0 && step.dt > growth * last_dt) { step = {growth * last_dt, 1, "growth"}; }
     }
-    step.substeps = substeps_of(options, step.dt, limits, pace);
+    step.substeps  = substeps_of(options, step.dt, limits, pace);
+    step.subcycles = subcycles_of(options, step, pace);
     return step;
 }
 
