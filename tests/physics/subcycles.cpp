@@ -41,8 +41,7 @@ region = {{ box = [[0.0, 0.0, {}], [0.03, 0.03, {}]] }}
     };
     return test::rock_domain({0.03, 0.03, 0.12}, 0, "x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\"",
                              "linear_overlap = 1e-2") +
-           fmt::format("[time]\ncontact_share = {}\nsubcycles = {}\n", share, subcycles) +
-           test::stone(1e7, 0.5, 0.5) +
+           fmt::format("[time]\ncontact_share = {}\nsubcycles = {}\n", share, subcycles) + test::stone(1e7, 0.5, 0.5) +
            "[[shape]]\nname = \"bumpy\"\ngenerate = { kind = \"rock\", seed = 5, nodes = 162 }\nsdf_cells = 40\n" +
            rocks(9, 0.01, 0.0, 0.03) + rocks(3, 0.004, 0.03, 0.04) + rocks(9, 0.01, 0.045, 0.08);
 }
@@ -72,12 +71,12 @@ Fallen fall(const Exec& exec, double share, int subcycles, double duration)
     return found;
 }
 
-/// As many substeps as four times the share takes, and the balance of the share. Without damping, so that rocks bounce.
+/// Takes as many substeps as four times the share does, and keeps the balance of the share; without damping.
 TYPED_TEST(Subcycling, KeepTheBalanceOfRocksThatFall)
 {
     constexpr double duration = 0.4, share = 0.2;
-    constexpr int    parts    = 4;
-    const Fallen     parted = fall(this->exec(), share, parts, duration), alike = fall(this->exec(), share, 1, duration),
+    constexpr int    parts = 4;
+    const Fallen parted = fall(this->exec(), share, parts, duration), alike = fall(this->exec(), share, 1, duration),
                  longer = fall(this->exec(), parts * share, 1, duration);
     test::report("substeps over those of four times the share",
                  static_cast<double>(parted.substeps) / static_cast<double>(longer.substeps), 1, 0.2,
@@ -97,8 +96,9 @@ TYPED_TEST(Subcycling, KeepTheBalanceOfRocksThatFall)
 TYPED_TEST(FullSizeSubcycling, RocksOfTwoSizesComeToRest)
 {
     constexpr double damped = 2.6, left = 0.5; // as in rocks_rest.cpp
-    test::expect_rest(this->exec(), two_sizes(0.4, 4) + test::phase("settle", 0.3, damped) + test::phase("rest", 0, left),
-                      damped, left);
+    test::expect_rest(this->exec(),
+                      two_sizes(0.4, 4) + test::phase("settle", 0.3, damped) + test::phase("rest", 0, left), damped,
+                      left);
 }
 
 } // namespace

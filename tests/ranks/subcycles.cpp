@@ -50,7 +50,7 @@ protected:
         if (run.alone.simulation().rigid().parts() == 1) { return 0; }
         const auto marked = [](solver::DemSolver<Exec>& rigid)
         {
-            std::vector<double> numbers;
+            std::vector<double>             numbers;
             const std::vector<std::int32_t> marks = rigid.pairs().stiff.body.to_host();
             for (std::size_t row = 0; row < marks.size(); ++row)
             {
@@ -61,8 +61,7 @@ protected:
         };
         std::set<double> alone, together;
         for (const double number : marked(run.alone.simulation().rigid())) { alone.insert(number); }
-        for (const auto& of_rank :
-             decomp::gather_values(test::world(), marked(run.together.simulation().rigid())))
+        for (const auto& of_rank : decomp::gather_values(test::world(), marked(run.together.simulation().rigid())))
         {
             together.insert(of_rank.begin(), of_rank.end());
         }

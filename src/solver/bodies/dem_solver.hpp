@@ -180,8 +180,8 @@ public:
     /// Rebuilds the pair list if it has expired, and returns whether it has.
     bool find_pairs_if_displaced(const TimeStep& step, std::int64_t done, double time);
 
-    /// Chooses the bodies that move in parts of the substeps of a step, where it has such parts; call before the substeps
-    /// and where the pair list was rebuilt in them. Collective.
+    /// Chooses the bodies that move in parts of the substeps of a step, where it has such parts; call before the
+    /// substeps and where the pair list was rebuilt in them. Collective.
     void mark_stiff(const TimeStep& step);
 
     /// Number of parts of the substeps that mark_stiff was last called for.

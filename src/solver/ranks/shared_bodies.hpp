@@ -27,7 +27,8 @@ public:
     /// Follows a change of this rank's rows.
     void take_rows(const BodyNumbers& numbers);
 
-    /// Prepares for exchange_marks(), which a scene without sleep and without subcycles does not need; call before plan().
+    /// Prepares for exchange_marks(), which a scene without sleep and without subcycles does not need; call before
+    /// plan().
     void begin_marks(decomp::Transport<Exec>& transport) { mark_.emplace(transport, "shares of marks"); }
 
     std::int64_t    count() const { return body_.size(); }

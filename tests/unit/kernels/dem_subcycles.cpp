@@ -68,10 +68,10 @@ constexpr double long_substep = 4e-5; ///< s
 /// To the bit: what is marked alone decides what a part does.
 TYPED_TEST(Subcycles, AreShorterSubstepsWhereAllAreMarkedAndNothingWhereNoneIs)
 {
-    using Scene             = typename TestFixture::Scene;
-    constexpr int    count  = 20, parts = 4;
-    constexpr double time   = 4 * count * long_substep;
-    const auto       ones   = [](std::int64_t size) { return std::vector<std::int32_t>(size, 1); };
+    using Scene            = typename TestFixture::Scene;
+    constexpr int    count = 20, parts = 4;
+    constexpr double time = 4 * count * long_substep;
+    const auto       ones = [](std::int64_t size) { return std::vector<std::int32_t>(size, 1); };
     const BumpyBody  bumpy(32);
     Scene            parted(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), rough()),
         shorter(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), rough()),
@@ -126,6 +126,38 @@ TYPED_TEST(Subcycles, ShareMomentumExactly)
     EXPECT_GT(moved, 0);
     EXPECT_LT(momentum, 1e-12 * moved);
     EXPECT_LT(spin, 1e-12 * moved);
+}
+
+/// A body's stiffness is that of its pairs and of sand: the latter is told apart from both.
+TYPED_TEST(Subcycles, TellTheStiffnessOfSandApart)
+{
+    constexpr double                     sand = 3e4; // N/m
+    constexpr std::int32_t               body = 5;
+    const BumpyBody                      bumpy(32);
+    typename TestFixture::Scene          scene(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), rough());
+    Array<TypeParam, std::int32_t>       run(this->exec(), "test runs"), first(this->exec(), "test first parts");
+    Array<TypeParam, dem::ContactWrench> part(this->exec(), "test parts");
+    std::vector<std::int32_t>            runs(heap_count, -1);
+    runs[body] = 0;
+    run.assign(runs);
+    first.assign(std::vector<std::int32_t>{0, 2});
+    part.assign(
+        std::vector<dem::ContactWrench>{{{0, 0, 1}, {0, 0, 0}, 2 * sand / 3}, {{0, 0, 1}, {0, 0, 0}, sand / 3}});
+    scene.find(0.01);
+    stage_bodies(this->exec(), scene.pairs, scene.bodies.view());
+    evaluate_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), 1e-5);
+    scene.move(1e-5, 0, {run.data(), first.data(), part.data()});
+    scene.pairs.stiff.wanted = true;
+    expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), scene.numbers.gravity, 1e-5);
+    const std::vector<double> all = scene.bodies.stiffness.to_host(), of_sand = scene.pairs.stiff.sand.to_host();
+    for (std::int32_t b = 0; b < heap_count; ++b)
+    {
+        const auto row = static_cast<std::size_t>(b);
+        EXPECT_GT(all[row], b == body ? 1.1 * sand : 0) << "pairs are stiff, too";
+        EXPECT_NEAR(of_sand[row], b == body ? sand : 0, 1e-12 * all[row]) << "rounding of sums; body " << b;
+    }
+    const double mass = scene.bodies.mass.to_host()[body], time = std::sqrt(mass / sand);
+    EXPECT_NEAR(smallest_sand_time(this->exec(), scene.pairs, scene.bodies.view()), time, 1e-9 * time);
 }
 
 } // namespace

@@ -123,10 +123,10 @@ TEST(LeftOut, RocksAlone)
 /// stiffness is always found.
 TEST(LeftOut, RocksInParts)
 {
-    const Part parts = {{"body stiffness of sand", "stiff body marks", "stiff body positions", "stiff pair marks"},
-                        {"sand contact frequencies", "stiff pairs"}};
-    constexpr int     steps = 300;
-    const std::string text  = without_terrain(test::sand_text) + above;
+    const Part    parts = {{"body stiffness of sand", "stiff body marks", "stiff body positions", "stiff pair marks"},
+                           {"sand contact frequencies", "stiff pairs"}};
+    constexpr int steps = 300;
+    const std::string text = without_terrain(test::sand_text) + above;
     expect_equal(used_by(text + "[time]\nsubcycles = 2\n", steps), used_by(text, steps) + parts);
 }
 

@@ -72,6 +72,8 @@ TEST(TimeStep, SubcyclesLengthenSubstepsAndAreAsFewAsSuffice)
     EXPECT_EQ(subcycles_of(parted, {6e-4, 10, ""}, pace), 1);
     EXPECT_EQ(subcycles_of(parted, {6e-4, 1, ""}, pace), 3) << "no more than the scene allows";
     EXPECT_EQ(subcycles_of({}, {6e-4, 1, ""}, pace), 1);
+    pace.shortest_sand = 5e-4; // 0.2 of it is 1e-4: no part evaluates sand anew
+    EXPECT_EQ(choose_step(parted, sand_limits(), pace, 0).substeps, 6);
     PaceLimits bodies_alone;
     bodies_alone.longest = 1;
     EXPECT_DOUBLE_EQ(choose_step(parted, bodies_alone, pace, 0).dt, 10 * 3 * 0.2 * 3.1e-4);

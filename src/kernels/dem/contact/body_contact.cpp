@@ -12,15 +12,14 @@ void evaluate_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bo
 {
     constexpr std::int64_t worth_threads = 2048; // about a millisecond
     evaluate_nodes(cpu, pairs, bodies, law, cycle);
-    contact_nodes::by_meeting(law, cycle,
-                              [&](const auto& meet, const auto& part)
-                              {
-                                  const auto answer =
-                                      body_contact::AnswerPair{meet, bodies.count, law, pairs.view(), dt, part};
-                                  for_each_heavy(
-                                      cpu, "body contacts", pairs.key.size(),
-                                      [=](std::int64_t p) { answer(p, OneLane{}); }, worth_threads);
-                              });
+    contact_nodes::by_meeting(
+        law, cycle,
+        [&](const auto& meet, const auto& part)
+        {
+            const auto answer = body_contact::AnswerPair{meet, bodies.count, law, pairs.view(), dt, part};
+            for_each_heavy(
+                cpu, "body contacts", pairs.key.size(), [=](std::int64_t p) { answer(p, OneLane{}); }, worth_threads);
+        });
     if (!pairs.resists_rolling) { return; }
     by_cycle(cycle,
              [&](const auto& part)

@@ -162,9 +162,9 @@ struct ResistRolling
         const bool         wall = b >= bodies;
         const PairLaw      pair = law_of(pairs, law, bodies, pairs.key[p]);
         const Spins        spins{pairs.body[a].spin, wall ? Vec3<double>::Zero() : pairs.body[b].spin};
-        const Resistance   found = resist_rolling(pair, pairs.patch[p], pairs.answers.force[p],
-                                                  pairs.answers.stiffness[p], spins, pairs.rolling[p],
-                                                  cycle.span_of_pair(p, dt));
+        const Resistance   found =
+            resist_rolling(pair, pairs.patch[p], pairs.answers.force[p], pairs.answers.stiffness[p], spins,
+                           pairs.rolling[p], cycle.span_of_pair(p, dt));
         pairs.answers.torque[p] += found.moment;
         pairs.answers.second_torque[pairs.answers.place[p]] -= found.moment;
         pairs.answers.energy[p] += found.energy;

@@ -14,9 +14,9 @@ namespace tread::dem
 /// Computes pairs.expected_stiffness of every body that substeps compute, N/m: the largest of three figures of its
 /// listed pairs. The stiffest first touch (two nodes in the linear part of the traction) of a separated pair; half of
 /// the sum of all first touches; the sum over the nodes in contact and those that enter when they move by twice the
-/// displacement that velocity and gravity (m/s2) give in dt (s). Where pairs.stiff.wanted, pairs.stiff.sand becomes what
-/// else makes up a body's present stiffness. Call after find_pairs. For bodies that several ranks
-/// integrate it uses this rank's pairs and writes their shares to shared.stiffness.
+/// displacement that velocity and gravity (m/s2) give in dt (s). Where pairs.stiff.wanted, pairs.stiff.sand becomes
+/// what else makes up a body's present stiffness. Call after find_pairs. For bodies that several ranks integrate it
+/// uses this rank's pairs and writes their shares to shared.stiffness.
 template<class Exec>
 void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared = {});
@@ -31,7 +31,8 @@ void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const BodiesVi
 template<class Exec>
 double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 
-/// Returns the same for the stiffness of sand alone, which no part of a substep computes anew; needs pairs.stiff.wanted.
+/// Returns the same for the stiffness of sand alone, which no part of a substep computes anew; needs
+/// pairs.stiff.wanted.
 template<class Exec>
 double smallest_sand_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 

@@ -197,18 +197,16 @@ template<class Exec>
 double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     pairs.measure.resize(bodies.count + 1);
-    return smallest_time(
-        exec, "contact frequencies", pairs, bodies.count,
-        contact_limits::WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
+    return smallest_time(exec, "contact frequencies", pairs, bodies.count,
+                         contact_limits::WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
 }
 
 template<class Exec>
 double smallest_sand_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     pairs.measure.resize(bodies.count + 1);
-    return smallest_time(
-        exec, "sand contact frequencies", pairs, bodies.count,
-        contact_limits::WriteSandFrequency{bodies, pairs.stiff.sand.data(), pairs.measure.data()});
+    return smallest_time(exec, "sand contact frequencies", pairs, bodies.count,
+                         contact_limits::WriteSandFrequency{bodies, pairs.stiff.sand.data(), pairs.measure.data()});
 }
 
 template<class Exec>

@@ -56,15 +56,15 @@ void evaluate_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodie
 {
     if (pairs.nodes.node.size() == 0) { return; }
     constexpr std::int64_t worth_threads = 128; // about a millisecond
-    contact_nodes::by_meeting(law, cycle,
-                              [&](const auto& meet, const auto& part)
-                              {
-                                  const auto evaluate =
-                                      contact_nodes::EvaluateNodes{meet, bodies.count, law, pairs.view(), part};
-                                  for_each_heavy(
-                                      cpu, "nodes found", node_words(pairs.nodes.node.size()),
-                                      [=](std::int64_t word) { evaluate(word, OneLane{}); }, worth_threads);
-                              });
+    contact_nodes::by_meeting(
+        law, cycle,
+        [&](const auto& meet, const auto& part)
+        {
+            const auto evaluate = contact_nodes::EvaluateNodes{meet, bodies.count, law, pairs.view(), part};
+            for_each_heavy(
+                cpu, "nodes found", node_words(pairs.nodes.node.size()),
+                [=](std::int64_t word) { evaluate(word, OneLane{}); }, worth_threads);
+        });
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \

@@ -62,14 +62,13 @@ void evaluate_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodie
                     const Subcycle& cycle)
 {
     if (pairs.nodes.node.size() == 0) { return; }
-    contact_nodes::by_meeting(law, cycle,
-                              [&](const auto& meet, const auto& part)
-                              {
-                                  const auto evaluate =
-                                      contact_nodes::EvaluateNodes{meet, bodies.count, law, pairs.view(), part};
-                                  for_each_group<nodes_of_word, 7>(gpu, "nodes found",
-                                                                   node_words(pairs.nodes.node.size()), evaluate);
-                              });
+    contact_nodes::by_meeting(
+        law, cycle,
+        [&](const auto& meet, const auto& part)
+        {
+            const auto evaluate = contact_nodes::EvaluateNodes{meet, bodies.count, law, pairs.view(), part};
+            for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()), evaluate);
+        });
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \

@@ -57,7 +57,8 @@ void share_wrenches(const Exec&, const BodyStep<Exec>& step);
 /// Second half of a substep, after evaluate_contacts. Sets every body's force, torque and stiffness to the sum of the
 /// external wrenches and of its pairs' responses (if pairs were ever found); adds wall impulses, losses and the
 /// impulses of named bodies to the energy and momentum balance; solves the joints; moves all bodies that are awake, by
-/// step.motion.dt or, where subcycled, by a part of it; and looks ahead where step.limit asks for it. Every sum has a fixed order on one backend. Allocates nothing.
+/// step.motion.dt or, where subcycled, by a part of it; and looks ahead where step.limit asks for it. Every sum has a
+/// fixed order on one backend. Allocates nothing.
 template<class Exec>
 void move_bodies(const Exec&, const BodyStep<Exec>& step);
 

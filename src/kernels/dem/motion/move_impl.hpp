@@ -246,7 +246,8 @@ struct Move
         BodyMotion      body  = motion_of(bodies, b, shown);
         const BodyShare share =
             pairs.first != nullptr ? GatherPairs<Cycle>{pairs, bodies.count, cycle}(b, lanes) : BodyShare::zero();
-        const WrenchShare acting = of_all_ranks(b, {held_line(cycle, b, shown.position, outside(b, lanes)), share.contact});
+        const WrenchShare acting =
+            of_all_ranks(b, {held_line(cycle, b, shown.position, outside(b, lanes)), share.contact});
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
         const double        span    = cycle.span_of_body(b, dt);
@@ -411,8 +412,9 @@ template<class Exec, class Run>
 void with_share(const BodyStep<Exec>& step, Run run)
 {
     by_cycle(step.cycle,
-             [&](const auto& cycle)
-             { run(ShareWrench{step.pairs.view(), step.bodies.count, {step.motion.outside}, step.shared, cycle}); });
+             [&](const auto& cycle) {
+                 run(ShareWrench{step.pairs.view(), step.bodies.count, {step.motion.outside}, step.shared, cycle});
+             });
 }
 
 /// Makes the Move of the step.

@@ -5,8 +5,8 @@
 #include "kernels/dem/motion/outside.hpp"
 
 // Subcycling: bodies whose contacts are too stiff for a substep take it in parts, with all bodies that they may touch.
-// Pairs of a stiff body are evaluated in each part. All other pairs, and sand, are evaluated in the first part, and push
-// for the whole substep with the same force along the same line: so both sides of a pair get the same impulse and
+// Pairs of a stiff body are evaluated in each part. All other pairs, and sand, are evaluated in the first part, and
+// push for the whole substep with the same force along the same line: so both sides of a pair get the same impulse and
 // angular impulse, and what rests in equilibrium stays so (docs/theory.md#subcycles).
 namespace tread::dem
 {

@@ -75,8 +75,7 @@ void mark_stiff(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void mark_shared_stiff(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared)
 {
-    for_each(exec, "shared stiff bodies", shared.count,
-             subcycle_steps::TakeMark{shared, pairs.stiff.body.data()});
+    for_each(exec, "shared stiff bodies", shared.count, subcycle_steps::TakeMark{shared, pairs.stiff.body.data()});
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \

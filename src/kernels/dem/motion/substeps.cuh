@@ -40,9 +40,9 @@ auto nodes_part(const Meet& meet, const BodyStep<Gpu>& step)
 template<class Meet>
 auto answers_part(const Meet& meet, const BodyStep<Gpu>& step)
 {
-    constexpr int lanes  = 4;
-    const auto    answer = body_contact::AnswerPair{meet,           step.bodies.count, step.law, step.pairs.view(),
-                                                    step.motion.dt, WholeSubstep{}};
+    constexpr int lanes = 4;
+    const auto    answer =
+        body_contact::AnswerPair{meet, step.bodies.count, step.law, step.pairs.view(), step.motion.dt, WholeSubstep{}};
     return pair_part<repeat_threads, lanes>(answer.pairs, answer);
 }
 
