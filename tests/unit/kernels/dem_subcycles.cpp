@@ -1,6 +1,6 @@
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 #include <vector>
 
 #include "dem_bumpy.hpp"
@@ -41,8 +41,7 @@ protected:
     static std::int32_t marked(const Array<Exec, std::int32_t>& marks)
     {
         const std::vector<std::int32_t> all = marks.to_host();
-        return static_cast<std::int32_t>(
-            std::count_if(all.begin(), all.end(), [](std::int32_t mark) { return mark != 0; }));
+        return std::accumulate(all.begin(), all.end(), 0);
     }
 
     static void expect_alike(const Scene& one, const Scene& other)
@@ -72,14 +71,15 @@ TYPED_TEST(Subcycles, AreShorterSubstepsWhereAllAreMarkedAndNothingWhereNoneIs)
     using Scene            = typename TestFixture::Scene;
     constexpr int    count = 20, parts = 4;
     constexpr double time = 4 * count * long_substep;
+    const auto       ones = [](std::int64_t size) { return std::vector<std::int32_t>(size, 1); };
     const BumpyBody  bumpy(32);
     Scene            parted(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), rough()),
         shorter(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), rough()),
         unmarked(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), rough()),
         whole(this->exec(), {bumpy.shape(162)}, bumpy_heap(bumpy), rough());
     this->mark(parted, time, 0);
-    parted.pairs.stiff.pair.assign(std::vector<std::int32_t>(parted.pairs.key.to_host().size(), 1));
-    parted.pairs.stiff.body.assign(std::vector<std::int32_t>(heap_count, dem::cycle_stiff));
+    parted.pairs.stiff.pair.assign(ones(parted.pairs.key.size()));
+    parted.pairs.stiff.body.assign(ones(heap_count));
     this->run(parted, long_substep, count, parts);
     shorter.find(time);
     this->run(shorter, long_substep / parts, count * parts, 1);

@@ -123,7 +123,7 @@ TEST(LeftOut, RocksAlone)
 /// stiffness is always found.
 TEST(LeftOut, RocksInParts)
 {
-    const Part    parts = {{"body stiffness of sand", "first pushes of bodies", "stiff body marks", "stiff pair marks"},
+    const Part    parts = {{"body stiffness of sand", "stiff body marks", "stiff body positions", "stiff pair marks"},
                            {"sand contact frequencies", "stiff pairs"}};
     constexpr int steps = 300;
     const std::string text = without_terrain(test::sand_text) + above;

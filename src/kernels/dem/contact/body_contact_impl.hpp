@@ -124,6 +124,20 @@ private:
         return static_cast<std::uint32_t>(both >> base % nodes_of_word);
     }
 
+    TREAD_HD double lag_of(std::int64_t p) const
+    {
+        if constexpr (!Cycle::divides) { return 0; }
+        else
+        {
+            if (cycle.pair[p] != 0) { return 0; }
+            const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+            const double       one = pairs.body[a].inverse_mass, other = b < bodies ? pairs.body[b].inverse_mass : 0;
+            const double in_parts = (cycle.body[a] != 0 ? one : 0) + (b < bodies && cycle.body[b] != 0 ? other : 0);
+            if (!(in_parts > 0)) { return 0; }
+            return 0.5 * (1 - 1.0 / cycle.parts) * dt * in_parts / (one + other);
+        }
+    }
+
     template<class Lanes>
     TREAD_HD NodeSums sum_nodes(std::int64_t p, const PairSetting& setting, const Lanes& lanes) const
     {
@@ -136,10 +150,10 @@ private:
                     });
         sums.stiffness = {lanes.sum(sums.stiffness.sum), lanes.largest(sums.stiffness.overlap)};
         if (!(sums.stiffness.overlap > 0)) { return sums; }
-        const double relaxation = relaxation_time(setting.law, sums.stiffness.sum);
+        const double relaxation = relaxation_time(setting.law, sums.stiffness.sum), lag = lag_of(p);
         each_inside(p, lanes,
                     [&](const NodeInField& node)
-                    { add_node(setting.law, node, setting.motion, relaxation, sums.patch); });
+                    { add_node(setting.law, node, setting.motion, relaxation, lag, sums.patch); });
         sums.patch.reduce(lanes);
         return sums;
     }

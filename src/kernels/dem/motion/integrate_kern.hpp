@@ -128,21 +128,13 @@ TREAD_HD void store_motion(const BodiesView& bodies, std::int64_t b, const BodyM
     bodies.angular_velocity[b] = motion.angular_velocity;
 }
 
-/// Time of a step, s: for which forces push a body, and for which it moves then.
-struct PushAndMove
-{
-    double push;
-    double move;
-};
-
-/// Moves a body under its contact force, gravity (m/s2) and damping. Adds to its row of totals only nonzero
+/// Moves a body by dt (s) under its contact force, gravity (m/s2) and damping. Adds to its row of totals only nonzero
 /// terms, because a row is as large as the rest of a body. A locked component keeps its velocity whatever the forces.
 /// Returns the velocity at mid-step.
 template<class Damping>
 TREAD_HD Vec3<double> integrate_translation(BodyMotion& body, const Vec3<double>& force, const Vec3<double>& gravity,
-                                            const Damping& damping, const PushAndMove& time, BodyTotal& total)
+                                            const Damping& damping, double dt, BodyTotal& total)
 {
-    const double       dt       = time.push;
     const Vec3<double> before   = body.velocity;
     const Vec3<double> acting   = force + body.mass * gravity;
     const Vec3<double> damped   = damping_of(damping, acting, before);
@@ -165,18 +157,17 @@ TREAD_HD Vec3<double> integrate_translation(BodyMotion& body, const Vec3<double>
         total.holding_work += holding.dot(mean);
     }
     body.velocity = after;
-    body.position += time.move * after;
+    body.position += dt * after;
     return mean;
 }
 
 /// Rotates a body likewise under its torque; returns the angular velocity over the step.
 template<class Damping>
 TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& torque, const Damping& damping,
-                                         const PushAndMove& time, BodyTotal& total)
+                                         double dt, BodyTotal& total)
 {
     const Mat3<double>  inertia = full(body.inertia), inverse = inertia.inverse();
     const std::uint32_t locked = body.locked;
-    const double        dt     = time.push;
     const Quat          start  = body.orientation;
     const Vec3<double>  before = body.angular_velocity;
     const Vec3<double>  damped = damping_of(damping, torque, before);
@@ -184,10 +175,10 @@ TREAD_HD Vec3<double> integrate_rotation(BodyMotion& body, const Vec3<double>& t
     const Mat3<double> at_start = start.toRotationMatrix();
     const Vec3<double> momentum = at_start * (inertia * (at_start.transpose() * before)) + dt * (torque + damped);
     const Vec3<double> kicked   = angular_velocity_of(at_start, inertia, inverse, momentum, before, locked);
-    const Quat         half     = rotation_by(0.5 * time.move * kicked) * start;
+    const Quat         half     = rotation_by(0.5 * dt * kicked) * start;
     const Vec3<double> middle =
         angular_velocity_of(half.toRotationMatrix(), inertia, inverse, momentum, before, locked);
-    const Quat         end    = made_unit(rotation_by(time.move * middle) * start);
+    const Quat         end    = made_unit(rotation_by(dt * middle) * start);
     const Mat3<double> at_end = end.toRotationMatrix();
     const Vec3<double> after  = angular_velocity_of(at_end, inertia, inverse, momentum, before, locked);
 
@@ -213,10 +204,10 @@ struct MeanMotion
 /// Integrates translation and rotation over a step.
 template<class Damping>
 TREAD_HD MeanMotion integrate_body(BodyMotion& body, const ContactWrench& contact, const Vec3<double>& gravity,
-                                   const Damping& damping, const PushAndMove& time, BodyTotal& total)
+                                   const Damping& damping, double dt, BodyTotal& total)
 {
-    const Vec3<double> velocity = integrate_translation(body, contact.force, gravity, damping, time, total);
-    return {velocity, integrate_rotation(body, contact.torque, damping, time, total)};
+    const Vec3<double> velocity = integrate_translation(body, contact.force, gravity, damping, dt, total);
+    return {velocity, integrate_rotation(body, contact.torque, damping, dt, total)};
 }
 
 } // namespace tread::dem

@@ -250,41 +250,39 @@ struct Move
             of_all_ranks(b, {held_line(cycle, b, shown.position, outside(b, lanes)), share.contact});
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
-        const Push          push =
-            push_in_part(cycle, b, shown.position, {contact, acting.outside, share.wall_force, 1, dt, dt});
+        const double        span    = cycle.span_of_body(b, dt);
         if (bodies.is_asleep(b))
         {
-            hold(b, share, contact, push);
+            hold(b, share, contact, span);
             return;
         }
-        account_contacts(b, share, contact, push);
-        BodyTotal          unused;
-        BodyTotal&         total  = *total_of(b, unused);
-        const double       weight = bodies.acting_weight(b, body.locked);
-        const Vec3<double> fall   = push.weight * gravity;
-        const MeanMotion   mean   = integrate(b, body, with_joints(b, push.contact), weight * fall, push, total);
+        account_contacts(b, share, contact, span);
+        BodyTotal        unused;
+        BodyTotal&       total  = *total_of(b, unused);
+        const double     weight = bodies.acting_weight(b, body.locked);
+        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, span, total);
         if (joints.place != nullptr) { account_joints(b, mean, total); }
-        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * fall, mean, push.lasts, total); }
-        if constexpr (Outside::acts) { account_outside(push.sand, mean, push.lasts, total); }
+        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, span, total); }
+        if constexpr (Outside::acts) { account_outside(acting.outside, mean, span, total); }
+        cycle.begin(b, shown.position);
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
         if (cycle.is_last(b)) { check_displacement_ahead(limit, bodies, b); }
     }
 
 private:
-    /// Holds a sleeper at rest against `pull`, the wrench of awake bodies and sand, which `push` is as well.
-    TREAD_HD void hold(std::int64_t b, const BodyShare& share, const ContactWrench& pull, Push push) const
+    /// Holds a sleeper at rest for `span` (s) against `pull`, the wrench of awake bodies and sand.
+    TREAD_HD void hold(std::int64_t b, const BodyShare& share, const ContactWrench& pull, double span) const
     {
         SleepWatch& load = watch[b];
-        push.contact     = pull + load.held;
-        account_contacts(b, share, push.contact, push);
-        load.impulse += push.lasts * pull.force;
-        load.angular_impulse += push.lasts * pull.torque;
-        if (bodies.is_owned(b)) { totals[b].holding_impulse -= push.lasts * pull.force; }
+        account_contacts(b, share, pull + load.held, span);
+        load.impulse += span * pull.force;
+        load.angular_impulse += span * pull.torque;
+        if (bodies.is_owned(b)) { totals[b].holding_impulse -= span * pull.force; }
     }
 
     TREAD_HD MeanMotion integrate(std::int64_t b, BodyMotion& body, const ContactWrench& contact,
-                                  const Vec3<double>& pull, const Push& push, BodyTotal& total) const
+                                  const Vec3<double>& pull, double span, BodyTotal& total) const
     {
         if constexpr (Prescription::act)
         {
@@ -292,12 +290,12 @@ private:
             {
                 ContactImpulse reaction{Vec3<double>::Zero(), Vec3<double>::Zero()};
                 MeanMotion     mean =
-                    integrate_prescribed(prescription.view.motion[b], body, contact, pull, push.moves, total, reaction);
+                    integrate_prescribed(prescription.view.motion[b], body, contact, pull, span, total, reaction);
                 if (bodies.is_owned(b)) { add(reaction, prescription.view.reaction[b]); }
                 return mean;
             }
         }
-        return integrate_body(body, contact, pull, damping(bodies, b), {push.lasts, push.moves}, total);
+        return integrate_body(body, contact, pull, damping(bodies, b), span, total);
     }
 
     TREAD_HD static void add(const ContactImpulse& impulse, ContactImpulse& sum)
@@ -326,20 +324,20 @@ private:
         return totals + b;
     }
 
-    /// Notes the wrench of all forces at present, and the impulses of a push.
+    /// Notes the wrench, which acts for `span` (s).
     TREAD_HD void account_contacts(std::int64_t b, const BodyShare& share, const ContactWrench& contact,
-                                   const Push& push) const
+                                   double span) const
     {
         bodies.force[b]     = contact.force;
         bodies.torque[b]    = contact.torque;
         bodies.stiffness[b] = contact.stiffness;
-        if (push.wall.squaredNorm() > 0) { totals[b].wall_impulse += push.lasts * push.wall; }
+        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += span * share.wall_force; }
         if (share.friction != 0) { totals[b].friction += share.friction; }
         if (share.restitution != 0) { totals[b].restitution += share.restitution; }
         if (b < named.count && bodies.is_owned(b))
         {
-            named.impulse[b].linear += push.lasts * push.contact.force;
-            named.impulse[b].angular += push.lasts * push.contact.torque;
+            named.impulse[b].linear += span * contact.force;
+            named.impulse[b].angular += span * contact.torque;
         }
     }
 

@@ -24,8 +24,8 @@ struct MarkPair
         const bool         stiff = is_stiff(a) || (!wall && is_stiff(b));
         of_pair[p]               = stiff ? 1 : 0;
         if (!stiff) { return; }
-        store_together(of_body + a, mark_of(a));
-        if (!wall) { store_together(of_body + b, mark_of(b)); }
+        store_together(of_body + a, 1);
+        if (!wall) { store_together(of_body + b, 1); }
     }
 
 private:
@@ -33,13 +33,6 @@ private:
     {
         if (bodies.is_fixed(b) || bodies.is_asleep(b)) { return false; }
         return std::fmax(bodies.stiffness[b], expected[b]) * shortest * shortest > bodies.mass[b];
-    }
-
-    /// Returns the mark of a body that a marked pair has.
-    TREAD_HD CycleMark mark_of(std::int64_t b) const
-    {
-        const bool led = bodies.is_asleep(b) || (bodies.locked[b] & prescribed) != 0;
-        return led || is_stiff(b) ? cycle_stiff : cycle_beside;
     }
 };
 
@@ -71,7 +64,7 @@ void mark_stiff(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     using namespace subcycle_steps;
     pairs.stiff.pair.resize(pairs.key.size());
     pairs.stiff.body.resize(bodies.count);
-    pairs.stiff.first.resize(bodies.count);
+    pairs.stiff.start.resize(bodies.count);
     pairs.stiff.body.fill_zero();
     for_each(exec, "stiff pairs", pairs.key.size(),
              MarkPair{bodies, pairs.view(), pairs.expected_stiffness.data(), shortest, pairs.stiff.pair.data(),

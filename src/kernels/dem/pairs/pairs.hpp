@@ -179,7 +179,7 @@ struct StiffMarks
     explicit StiffMarks(const Exec& exec)
         : pair(exec, "stiff pair marks")
         , body(exec, "stiff body marks")
-        , first(exec, "first pushes of bodies")
+        , start(exec, "stiff body positions")
         , sand(exec, "body stiffness of sand")
     {
     }
@@ -187,14 +187,14 @@ struct StiffMarks
     bool wanted = false; ///< whether substeps may have parts
 
     Array<Exec, std::int32_t> pair;  ///< 1: a pair of a body whose contacts are too stiff for a substep
-    Array<Exec, std::int32_t> body;  ///< CycleMark of each body
-    Array<Exec, FirstPush>    first; ///< of bodies that move in parts
+    Array<Exec, std::int32_t> body;  ///< 1: a body of such a pair
+    Array<Exec, Vec3<double>> start; ///< m, of marked bodies when the substep began
     Array<Exec, double>       sand;  ///< N/m, part of each body's present stiffness that is not that of its pairs
 
     /// The present part of a substep in so many.
     Subcycle cycle(std::int32_t parts, std::int32_t part)
     {
-        return {pair.data(), body.data(), first.data(), parts, part};
+        return {pair.data(), body.data(), start.data(), parts, part};
     }
 };
 
