@@ -89,10 +89,6 @@ Keys<TimeOptions> time_keys()
                  "Substep over sqrt(m / sum K) of the stiffest body, where substeps are \"auto\". Contacts are stable "
                  "to 1.1; over "
                  "0.4 single impacts lose their energy balance; at 0.001 their error is that of rounding."),
-        optional("subcycles", "", &TimeOptions::subcycles, integer<std::int64_t>(1, most_subcycles),
-                 "Parts of a substep in which bodies move whose contacts are too stiff for it, with what they may "
-                 "touch; automatic substeps are up to as many times longer, which pays where such bodies are few. "
-                 "1 moves all bodies alike; a scene with joints takes no other."),
     };
 }
 

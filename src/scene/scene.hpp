@@ -74,16 +74,12 @@ struct GridOptions
 /// Largest number of contact substeps in a step; a run with more would not finish in reasonable time.
 inline constexpr std::int64_t most_substeps = 1000000;
 
-/// Largest number of parts of a contact substep.
-inline constexpr std::int64_t most_subcycles = 8;
-
 struct TimeOptions
 {
     std::optional<double>       dt;       ///< s; empty means "auto"
     std::optional<std::int64_t> substeps; ///< contact substeps per step; empty means "auto"
     double                      contact_share =
         0.2; ///< share of sqrt(m / sum K) used by automatic substeps: docs/theory.md#time-step (measured limit: 1.1)
-    std::int64_t subcycles = 1; ///< most parts of a substep for bodies whose contacts are too stiff for it; 1: none
 
     bool operator==(const TimeOptions&) const = default;
 };

@@ -221,15 +221,6 @@ void require_gravity(Checker& checker)
     checker.report(at, "gravity", "missing", vector3(acceleration()).accepted + " (m/s2), or gravity_size");
 }
 
-/// Bodies with joints move together.
-void validate_subcycles(const Scene& scene, Checker& checker)
-{
-    const TableAt at{"time"};
-    if (scene.time.subcycles == 1 || scene.joints.empty() || !checker.sound(at, {"subcycles"})) { return; }
-    checker.report(at, "subcycles", fmt::format("{} in a scene with [[joint]]", scene.time.subcycles),
-                   "1, or no [[joint]]");
-}
-
 /// Checks limitations of a refined grid; where its boxes may lie is checked when the world is built.
 void validate_refinement(const Scene& scene, Checker& checker)
 {
@@ -288,7 +279,6 @@ void validate(const Scene& scene, const Node& document, Problems& problems)
 {
     Checker checker{document, problems};
     require_gravity(checker);
-    validate_subcycles(scene, checker);
     validate_names(scene, checker);
     validate_references(scene, checker);
     validate_materials(scene, checker);

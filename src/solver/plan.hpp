@@ -32,7 +32,6 @@ struct Plan
     bool snapshots;
     bool sleep;      ///< sleep of sand at rest
     bool rock_sleep; ///< sleep of rocks at rest
-    bool subcycles;  ///< substeps may have parts for bodies with stiff contacts
     bool motions;    ///< a prescribed motion in some phase
     bool cap;        ///< points keep the pressure of a cap
     bool nonlocal;   ///< points keep a mean strain of their surroundings

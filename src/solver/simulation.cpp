@@ -199,13 +199,8 @@ void Simulation<Exec, Real>::find_contacts(TimeStep& step, double time, StageClo
 {
     if (measured()) { list_contacts(step.dt * static_cast<double>(measuring_.every), clock); }
     require_apart(time);
-    if (plan_.body_contact)
-    {
-        step.substeps  = substeps_of(scene_.time, step.dt, limits_, measuring_.pace);
-        step.subcycles = subcycles_of(scene_.time, step, measuring_.pace);
-    }
+    if (plan_.body_contact) { step.substeps = substeps_of(scene_.time, step.dt, limits_, measuring_.pace); }
     if (step.substeps > scene::most_substeps) { rigid_->refuse_substeps(step, measuring_.pace, time); }
-    if (plan_.body_contact && measured()) { rigid_->mark_stiff(step); }
 }
 
 /// Builds contact lists that are valid for steps of `span` (s) in all.
@@ -220,7 +215,6 @@ void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
         };
         clock.run(exec_, stage::pairs, find);
         measuring_.pace.shortest_contact = rigid_->shortest_contact();
-        measuring_.pace.shortest_sand    = rigid_->shortest_sand();
         wake_sand_near_rocks(clock);
     }
     if (!coupling_) { return; }

@@ -18,20 +18,13 @@ constexpr double point_contact_warn = 2.0;
 constexpr double unseen_fall        = dem::rest_reserve; ///< reserve of the pair list over a body's radius
 constexpr double overlap_warning    = 0.1;               ///< overlap over radius: the head-on case itself reaches 0.11
 constexpr double growth             = 1.05;
-constexpr double substeps_alone     = 10;   ///< substeps a step where no sand sets the step
-constexpr double rounding           = 1e-9; ///< of a number of substeps or of their parts, so that it does not add one
+constexpr double substeps_alone     = 10; ///< substeps a step where no sand sets the step
 
 struct Bound
 {
     double      dt;
     const char* name;
 };
-
-/// s, the longest substep for the body with the stiffest contacts, in as many parts as the scene allows.
-double longest_substep(const scene::TimeOptions& options, const Pace& pace)
-{
-    return options.contact_share * static_cast<double>(options.subcycles) * pace.shortest_contact;
-}
 
 Bound smallest_bound(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace)
 {
@@ -55,7 +48,7 @@ Bound smallest_bound(const scene::TimeOptions& options, const PaceLimits& limits
     if (pace.stiffest_point > 0) { bound(std::sqrt(point_contact_bound / pace.stiffest_point), "sand-body contact"); }
     if (!sand && pace.shortest_contact > 0)
     {
-        bound(substeps_alone * longest_substep(options, pace), "body-body contact");
+        bound(substeps_alone * options.contact_share * pace.shortest_contact, "body-body contact");
     }
     return least;
 }
@@ -66,25 +59,17 @@ std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const Pac
 {
     if (options.substeps) { return *options.substeps; }
     double needed = 1;
-    if (pace.shortest_contact > 0) { needed = std::max(needed, std::ceil(dt / longest_substep(options, pace))); }
-    if (pace.shortest_sand > 0)
+    if (pace.shortest_contact > 0)
     {
-        needed = std::max(needed, std::ceil(dt / (options.contact_share * pace.shortest_sand)));
+        needed = std::max(needed, std::ceil(dt / (options.contact_share * pace.shortest_contact)));
     }
     if (limits.smallest_body > 0)
     {
+        // Rounding of a dt at the same bound must not double the substeps.
         const double displacement = dt * pace.largest_speed / (displacement_bound * limits.smallest_body);
-        needed                    = std::max(needed, std::ceil(displacement - rounding));
+        needed                    = std::max(needed, std::ceil(displacement - 1e-9));
     }
     return saturated(needed);
-}
-
-std::int64_t subcycles_of(const scene::TimeOptions& options, const TimeStep& step, const Pace& pace)
-{
-    if (options.subcycles == 1 || !(pace.shortest_contact > 0)) { return 1; }
-    const double substep = step.dt / static_cast<double>(step.substeps);
-    const double needed  = std::ceil(substep / (options.contact_share * pace.shortest_contact) - rounding);
-    return std::clamp<std::int64_t>(saturated(needed), 1, options.subcycles);
 }
 
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt)
@@ -97,8 +82,7 @@ TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits
         step              = {bound.dt, 1, bound.name};
         if (last_dt > 0 && step.dt > growth * last_dt) { step = {growth * last_dt, 1, "growth"}; }
     }
-    step.substeps  = substeps_of(options, step.dt, limits, pace);
-    step.subcycles = subcycles_of(options, step, pace);
+    step.substeps = substeps_of(options, step.dt, limits, pace);
     return step;
 }
 
@@ -126,7 +110,7 @@ std::optional<std::string> over_limit(const TimeStep& step, const PaceLimits& li
         return fmt::format("dt = {:.4g} s: sand-body contact k dt^2/m_p = {:.3g} is over {}", step.dt, spring,
                            point_contact_warn);
     }
-    const double substep = step.shortest_part();
+    const double substep = step.dt / static_cast<double>(step.substeps);
     if (pace.shortest_contact > 0 && substep > contact_warning * pace.shortest_contact)
     {
         return fmt::format("substep = {:.4g} s is {:.3g} of sqrt(m / sum K) = {:.4g} s, over {}", substep,

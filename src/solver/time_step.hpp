@@ -15,7 +15,6 @@ struct Pace
     double largest_speed    = 0; ///< m/s, of points and bodies
     double stiffest_point   = 0; ///< 1/s2, k/m_p of the stiffest live sand-body contact
     double shortest_contact = 0; ///< s, min over bodies of sqrt(m / sum of K); 0 = no body contact
-    double shortest_sand    = 0; ///< s, the same of the stiffness of sand alone, if substeps may have parts; 0 = none
     double overlap          = 0; ///< largest overlap of bodies over radius
 };
 
@@ -34,27 +33,19 @@ struct TimeStep
 {
     double       dt       = 0; ///< s
     std::int64_t substeps = 1;
-    std::string  limit;         ///< name of the bound that sets the step
-    std::int64_t subcycles = 1; ///< parts of a substep for the bodies with the stiffest contacts
-
-    /// s, the shortest time that a body moves at once.
-    double shortest_part() const { return dt / static_cast<double>(substeps * subcycles); }
+    std::string  limit; ///< name of the bound that sets the step
 };
 
 inline constexpr double point_contact_bound = 0.5; ///< bound on k dt^2 / m_p, docs/theory.md#time-step
 inline constexpr double displacement_bound  = 0.3; ///< v dt over the spacing, or v dt/N over the smallest body
 
 /// Chooses the step within the limits c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest sand-body
-/// contact, dt/N <= contact_share subcycles sqrt(m / sum K), dt/N <= contact_share sqrt(m / sum K of sand), v dt/N <=
-/// 0.3 of the smallest body. It grows by at most 5 % a step. Values fixed by the scene are used unchanged.
+/// contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. It grows by at most 5 % a step.
+/// Values fixed by the scene are used unchanged.
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
 
 /// N of a step of dt (s): as the contacts require, or as the scene sets it.
 std::int64_t substeps_of(const scene::TimeOptions& options, double dt, const PaceLimits& limits, const Pace& pace);
-
-/// Number of parts of the substeps of a step (dt, substeps) for the bodies with the stiffest contacts: as many as these
-/// require, at most as the scene allows.
-std::int64_t subcycles_of(const scene::TimeOptions& options, const TimeStep& step, const Pace& pace);
 
 /// Shortens the last steps before `remaining` (s) runs out slightly, so that none of them is tiny: the support
 /// acceleration of points in contact is a change of velocity over dt.

@@ -140,12 +140,6 @@ TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
     this->expect_same_bits(test::sand_text + test::rocks_text + test::thrown_roller_text);
 }
 
-/// Saved while some rocks move in parts of the substeps.
-TYPED_TEST(Restart, OfRocksInPartsGivesTheSameBits)
-{
-    this->expect_same_bits(test::sand_text + test::rocks_text + test::thrown_roller_text + "[time]\nsubcycles = 3\n");
-}
-
 /// Saved while the motor works against its largest torque; a joint reaches its stop and another is held by its spring.
 TYPED_TEST(Restart, OfJointedBodiesGivesTheSameBits)
 {

@@ -29,7 +29,7 @@ public:
     explicit SharedSleep(BodyRanks<Exec>& ranks)
         : ranks_(ranks)
     {
-        ranks.begin_marks();
+        ranks.begin_sleep();
     }
 
     dem::SharedView shared() override { return ranks_.shared().view(); }

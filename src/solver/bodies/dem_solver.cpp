@@ -6,7 +6,6 @@
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
-#include "kernels/dem/motion/subcycle_marks.hpp"
 #include "kernels/dem/motion/substeps.hpp"
 #include "solver/bodies/body_checks.hpp"
 #include "solver/bodies/contact_records.hpp"
@@ -32,8 +31,6 @@ DemSolver<Exec>::DemSolver(const Exec& exec, const scene::Scene& scene, const wo
     if (!world.joints.empty()) { joints_.emplace(exec, scene, world); }
     restore_contacts(state_);
     if (plan.rock_sleep) { begin_sleep(state_); }
-    state_.pairs.stiff.wanted = plan.subcycles;
-    if (state_.ranks && plan.subcycles) { state_.ranks->begin_marks(); }
 }
 
 template<class Exec>
@@ -113,14 +110,6 @@ double DemSolver<Exec>::shortest_contact()
 }
 
 template<class Exec>
-double DemSolver<Exec>::shortest_sand()
-{
-    if (!state_.pairs.stiff.wanted) { return 0; }
-    return smallest_over_ranks(state_.communicator(),
-                               dem::smallest_sand_time(state_.exec, state_.pairs, state_.view()));
-}
-
-template<class Exec>
 void DemSolver<Exec>::refuse_substeps(const TimeStep& step, const Pace& pace, double time)
 {
     solver::refuse_substeps(state_, step, pace, time);
@@ -146,55 +135,39 @@ bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
     if (!std::exchange(lists_.expired, false)) { return false; }
     const double dt = step.dt / static_cast<double>(step.substeps);
     check_before_search(state_, reports_, time + dt * static_cast<double>(done));
-    const bool found = renew_pairs(step.dt, UnheldRows::stay);
-    mark_stiff(step);
-    return found;
+    return renew_pairs(step.dt, UnheldRows::stay);
 }
 
 template<class Exec>
-void DemSolver<Exec>::mark_stiff(const TimeStep& step)
+void DemSolver<Exec>::contact(double dt)
 {
-    parts_ = static_cast<std::int32_t>(step.subcycles);
-    if (parts_ == 1) { return; }
-    const double substep = step.dt / static_cast<double>(step.substeps);
-    dem::mark_stiff(state_.exec, state_.pairs, state_.view(), substep / state_.scene.time.contact_share,
-                    state_.shared());
-    if (!state_.ranks) { return; }
-    state_.ranks->shared().exchange_marks();
-    dem::mark_shared_stiff(state_.exec, state_.pairs, state_.shared());
+    dem::evaluate_contacts(substep_exec(), state_.pairs, state_.view(), state_.tables.law, dt);
 }
 
 template<class Exec>
-void DemSolver<Exec>::contact(double dt, std::int32_t part)
-{
-    dem::evaluate_contacts(substep_exec(), state_.pairs, state_.view(), state_.tables.law, dt, cycle(part));
-}
-
-template<class Exec>
-void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches& outside, std::int32_t part)
+void DemSolver<Exec>::move(double dt, double damping, const dem::OutsideWrenches& outside)
 {
     dem::BodyStep<Exec> step = body_step(dt, damping);
     step.motion.outside      = outside;
     step.limit.repeated      = nullptr;
-    step.cycle               = cycle(part);
     if (shares())
     {
         dem::share_wrenches(substep_exec(), step);
         state_.ranks->shared().exchange_wrenches();
     }
     dem::move_bodies(substep_exec(), step);
-    if (part == parts_ - 1) { requested(1); }
+    requested(1);
 }
 
 template<class Exec>
 void DemSolver<Exec>::run(double dt, double damping, std::int64_t count)
 {
-    if (shares() || parts_ > 1)
+    if (shares())
     {
-        for (std::int64_t part = 0; part < count * parts_; ++part)
+        for (std::int64_t substep = 0; substep < count; ++substep)
         {
-            contact(dt, static_cast<std::int32_t>(part % parts_));
-            move(dt, damping, {}, static_cast<std::int32_t>(part % parts_));
+            contact(dt);
+            move(dt, damping);
         }
         return;
     }
@@ -223,8 +196,7 @@ dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
             state_.shared(),
             motions_ ? motions_->view() : dem::PrescribedView{},
             joints_ ? joints_->view() : dem::JointsView{},
-            lists_.limit(state_),
-            cycle(0)};
+            lists_.limit(state_)};
 }
 
 template<class Exec>

@@ -156,9 +156,6 @@ public:
     /// Minimum over bodies of sqrt(m / sum K), s, over contacts that are live or may begin in the step; 0 = none.
     double shortest_contact();
 
-    /// s, the same of the stiffness of sand alone, where substeps may have parts; 0 elsewhere. Collective.
-    double shortest_sand();
-
     /// Throws NumericalError: a step would take too many substeps; names the body that demands them.
     [[noreturn]] void refuse_substeps(const TimeStep& step, const Pace& pace, double time);
 
@@ -180,19 +177,12 @@ public:
     /// Rebuilds the pair list if it has expired, and returns whether it has.
     bool find_pairs_if_displaced(const TimeStep& step, std::int64_t done, double time);
 
-    /// Chooses the bodies that move in parts of the substeps of a step, where it has such parts; call before the
-    /// substeps and where the pair list was rebuilt in them. Collective.
-    void mark_stiff(const TimeStep& step);
-
-    /// Number of parts of the substeps that mark_stiff was last called for.
-    std::int32_t parts() const { return parts_; }
-
     /// Step 4. Call before the substeps of a step, and where the pair list was rebuilt in it.
     void list_moved(const dem::OutsideWrenches& outside);
 
-    // Step 4. One part of a substep of dt (s); contact(0) outside of substeps gives the contacts' energy.
-    void contact(double dt, std::int32_t part = 0);
-    void move(double dt, double damping, const dem::OutsideWrenches& outside = {}, std::int32_t part = 0);
+    // Step 4. One substep.
+    void contact(double dt);
+    void move(double dt, double damping, const dem::OutsideWrenches& outside = {});
     /// Calls contact and move `count` times, for bodies that touch only each other and walls.
     void run(double dt, double damping, std::int64_t count);
 
@@ -244,12 +234,6 @@ public:
 private:
     bool renew_pairs(double dt, UnheldRows unheld);
 
-    /// Part of a substep; without parts the whole one.
-    dem::Subcycle cycle(std::int32_t part)
-    {
-        return parts_ == 1 ? dem::Subcycle{} : state_.pairs.stiff.cycle(parts_, part);
-    }
-
     /// Number of substeps in dt (s), as the last one was.
     double substeps_in(double dt) const { return substep_ > 0 ? dt / substep_ : 1; }
 
@@ -265,7 +249,6 @@ private:
     NamedMeans<Exec>  means_;
     SleepSettings     sleep_;
     double            substep_       = 0;       ///< s, duration of the last substep
-    std::int32_t      parts_         = 1;       ///< of a substep for stiff bodies
     bool              moved_in_sand_ = false;   ///< whether bodies were last listed for substeps with sand
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 

@@ -131,7 +131,7 @@ bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, dou
     if (state.ranks)
     {
         state.ranks->shared().exchange_stiffness();
-        dem::expect_shared_contacts(state.exec, state.pairs, state.view(), state.shared());
+        dem::expect_shared_contacts(state.exec, state.pairs, state.shared());
     }
     return !valid;
 }

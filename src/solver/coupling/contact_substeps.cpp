@@ -21,19 +21,16 @@ void coupled_substep(const ContactSubsteps<Exec, Real>& parts, double dt, StageC
         clock.run(parts.exec, stage::sand_contact,
                   [&] { parts.coupling->substep(parts.bodies.substep_exec(), parts.bodies.view(), dt); });
     }
-    for (std::int32_t part = 0; part < parts.bodies.parts(); ++part)
+    if (parts.plan.body_contact)
     {
-        if (parts.plan.body_contact)
-        {
-            clock.run(parts.exec, stage::body_contact, [&] { parts.bodies.contact(dt, part); });
-        }
-        const auto move = [&]
-        {
-            parts.bodies.move(dt, parts.damping,
-                              parts.coupling != nullptr ? parts.coupling->wrenches() : dem::OutsideWrenches{}, part);
-        };
-        clock.run(parts.exec, stage::integrate, move);
+        clock.run(parts.exec, stage::body_contact, [&] { parts.bodies.contact(dt); });
     }
+    const auto move = [&]
+    {
+        parts.bodies.move(dt, parts.damping,
+                          parts.coupling != nullptr ? parts.coupling->wrenches() : dem::OutsideWrenches{});
+    };
+    clock.run(parts.exec, stage::integrate, move);
 }
 
 /// Runs sand-body and body-body substeps in one launch where that is worthwhile; the time counts as sand-body contact.

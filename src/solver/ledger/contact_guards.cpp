@@ -17,7 +17,7 @@ constexpr double least_gradient = 0.5; ///< |grad phi| in contact below which a 
 
 void require_stable_substep(const LastStep& last, const Pace& pace)
 {
-    const double substep = last.step.shortest_part();
+    const double substep = last.step.dt / static_cast<double>(last.step.substeps);
     if (pace.shortest_contact <= 0 || substep <= longest_substep * pace.shortest_contact) { return; }
     throw NumericalError(
         fmt::format("t = {:.6g} s: a substep of {:.4g} s is {:.3g} of a body's sqrt(m / sum K), over the "

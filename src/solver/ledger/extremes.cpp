@@ -20,7 +20,7 @@ void Extremes::note(const TimeStep& step, std::int64_t steps, const PaceLimits& 
     spring        = std::max(spring, pace.stiffest_point * step.dt * step.dt);
     body_overlap  = std::max(body_overlap, pace.overlap);
     point_overlap = std::max(point_overlap, contacts.deepest.value);
-    if (shortest > 0) { substep = std::max(substep, step.shortest_part() / shortest); }
+    if (shortest > 0) { substep = std::max(substep, step.dt / static_cast<double>(step.substeps) / shortest); }
     if (contacts.live_named == 0) { return; }
     const double span = step.dt * static_cast<double>(steps);
     touched += span;

@@ -82,8 +82,8 @@ public:
     /// Writes roles and numbers of the rows, whose arrays have their size.
     void write_rows(dem::Bodies<Exec>& bodies);
 
-    /// Prepares shared() for the marks of bodies; call before the first assign_owners().
-    void begin_marks() { shared_.begin_marks(decomposition_.transport); }
+    /// Prepares shared() for the marks of bodies that may sleep; call before the first assign_owners().
+    void begin_sleep() { shared_.begin_marks(decomposition_.transport); }
 
     /// How the last assign_owners() has changed rows; null where it has not.
     const RowMoves<Exec>* row_moves() const { return moves_ ? &*moves_ : nullptr; }

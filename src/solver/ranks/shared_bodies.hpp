@@ -27,8 +27,7 @@ public:
     /// Follows a change of this rank's rows.
     void take_rows(const BodyNumbers& numbers);
 
-    /// Prepares for exchange_marks(), which a scene without sleep and without subcycles does not need; call before
-    /// plan().
+    /// Prepares for exchange_marks(), which a scene without sleep does not need; call before plan().
     void begin_marks(decomp::Transport<Exec>& transport) { mark_.emplace(transport, "shares of marks"); }
 
     std::int64_t    count() const { return body_.size(); }
@@ -65,7 +64,7 @@ private:
     Shares<dem::StiffnessShare> stiffness_;
     Shares<double>              speed_;
 
-    std::optional<Shares<std::int32_t>> mark_; ///< only where bodies may sleep or are subcycled
+    std::optional<Shares<std::int32_t>> mark_; ///< only where bodies may sleep
 };
 
 } // namespace tread::solver

@@ -171,7 +171,7 @@ TYPED_TEST(SharedBodies, ExpectTheContactsOfAllRanks)
     even.expect();
     odd.expect();
     even.receive(odd);
-    expect_shared_contacts(this->exec(), even.scene.pairs, even.scene.bodies.view(), even.shared());
+    expect_shared_contacts(this->exec(), even.scene.pairs, even.shared());
     const auto expected = whole.pairs.expected_stiffness.to_host(),
                found    = even.scene.pairs.expected_stiffness.to_host();
     for (std::size_t b = 0; b < expected.size(); ++b)

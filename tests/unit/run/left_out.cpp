@@ -17,8 +17,8 @@ namespace
 using namespace tread;
 using namespace tread::test;
 
-/// Allocations and launches in the first steps.
-Part used_by(const std::string& text, int steps = 5)
+/// Allocations and launches in five steps from the start.
+Part used_by(const std::string& text)
 {
     const scene::Scene               scene = test::load_text(text);
     const world::World               world = world::build_world(scene);
@@ -28,7 +28,7 @@ Part used_by(const std::string& text, int steps = 5)
     std::vector<solver::BodyCommand> commands(scene.bodies.size());
     solver::TimeStep                 step;
     simulation.begin();
-    for (int i = 0; i < steps; ++i)
+    for (int i = 0; i < 5; ++i)
     {
         step = solver::choose_step(scene.time, simulation.limits(), simulation.pace(), step.dt);
         simulation.command(commands, 0);
@@ -117,17 +117,6 @@ TEST(LeftOut, SandWithASofteningLength) { expect_uses(bolton("softening_length =
 TEST(LeftOut, RocksAlone)
 {
     expect_uses(without_terrain(test::sand_text) + above, bodies + pairs + pairs_without_sand);
-}
-
-/// Bodies whose contacts are too stiff for a substep are marked, once rocks are about to touch; sand's share of their
-/// stiffness is always found.
-TEST(LeftOut, RocksInParts)
-{
-    const Part    parts = {{"body stiffness of sand", "stiff body marks", "stiff body positions", "stiff pair marks"},
-                           {"sand contact frequencies", "stiff pairs"}};
-    constexpr int steps = 300;
-    const std::string text = without_terrain(test::sand_text) + above;
-    expect_equal(used_by(text + "[time]\nsubcycles = 2\n", steps), used_by(text, steps) + parts);
 }
 
 TEST(LeftOut, AWheelOnRocks)

@@ -56,29 +56,6 @@ TEST(TimeStep, SubstepsFollowTheStiffestBody)
     EXPECT_DOUBLE_EQ(choose_step(bold, bodies_alone, pace, 0).dt, 10 * 0.4 * 3.1e-4);
 }
 
-TEST(TimeStep, SubcyclesLengthenSubstepsAndAreAsFewAsSuffice)
-{
-    scene::TimeOptions parted;
-    parted.subcycles = 3;
-    Pace pace;
-    EXPECT_EQ(subcycles_of(parted, {6e-4, 1, ""}, pace), 1) << "no contact";
-    pace.shortest_contact = 3.1e-4; // 0.2 of it is 6.2e-5, three of that 1.86e-4
-    const TimeStep step   = choose_step(parted, sand_limits(), pace, 0);
-    EXPECT_DOUBLE_EQ(step.dt, 6e-4);
-    EXPECT_EQ(step.substeps, 4);
-    EXPECT_EQ(step.subcycles, 3);
-    EXPECT_DOUBLE_EQ(step.shortest_part(), 5e-5);
-    EXPECT_EQ(subcycles_of(parted, {6e-4, 5, ""}, pace), 2);
-    EXPECT_EQ(subcycles_of(parted, {6e-4, 10, ""}, pace), 1);
-    EXPECT_EQ(subcycles_of(parted, {6e-4, 1, ""}, pace), 3) << "no more than the scene allows";
-    EXPECT_EQ(subcycles_of({}, {6e-4, 1, ""}, pace), 1);
-    pace.shortest_sand = 5e-4; // 0.2 of it is 1e-4: no part evaluates sand anew
-    EXPECT_EQ(choose_step(parted, sand_limits(), pace, 0).substeps, 6);
-    PaceLimits bodies_alone;
-    bodies_alone.longest = 1;
-    EXPECT_DOUBLE_EQ(choose_step(parted, bodies_alone, pace, 0).dt, 10 * 3 * 0.2 * 3.1e-4);
-}
-
 TEST(TimeStep, FixedValuesAreTakenAndChecked)
 {
     scene::TimeOptions fixed;

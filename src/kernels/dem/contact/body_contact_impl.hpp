@@ -52,28 +52,26 @@ TREAD_HD PairSetting setting_of(const PairsView& pairs, const BodyLaw& law, std:
 }
 
 /// Computes the response of a pair from its nodes, which must have been checked (contact_nodes.hpp), by lanes that
-/// share it. Meet: narrow phase, MeetByDistance or MeetByRays. Cycle: WholeSubstep or Subcycle.
-template<class Meet, class Cycle>
+/// share it. Meet: narrow phase, MeetByDistance or MeetByRays.
+template<class Meet>
 struct AnswerPair
 {
     Meet         meet;
     std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
-    double       dt; ///< s, of the substep
-    Cycle        cycle;
+    double       dt;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
-        if (!cycle.is_due(p)) { return; }
         const PairSetting setting = setting_of(pairs, law, bodies, pairs.key[p]);
         const NodeSums    sums    = of_spheres(setting) ? touch_spheres(p, setting) : sum_nodes(p, setting, lanes);
         if (lanes.lane() != 0) { return; }
         const double       peak     = pairs.peak[p]; // all reads come before any write, so that the loads overlap
         const std::int32_t place    = pairs.answers.place[p];
         Patch              patch    = pairs.patch[p];
-        const PairResponse response = answer(setting, sums, patch, cycle.span_of_pair(p, dt));
+        const PairResponse response = answer(setting, sums, patch);
         pairs.answers.store(p, place, response);
         pairs.peak[p]  = std::fmax(peak, response.overlap);
         pairs.patch[p] = patch;
@@ -96,12 +94,12 @@ private:
         return sums_of_spheres(setting.law, contact, setting.motion);
     }
 
-    /// Computes the pair's response over `span` (s) and updates its record.
-    TREAD_HD PairResponse answer(const PairSetting& setting, const NodeSums& sums, Patch& patch, double span) const
+    /// Computes the pair's response and updates its record.
+    TREAD_HD PairResponse answer(const PairSetting& setting, const NodeSums& sums, Patch& patch) const
     {
         if (!(sums.stiffness.overlap > 0)) { return release(setting.law, patch); }
         const Spins spins{setting.spin, setting.spin - setting.motion.spin};
-        return respond(setting.law, sums, setting.motion, spins, setting.arm, patch, span);
+        return respond(setting.law, sums, setting.motion, spins, setting.arm, patch, dt);
     }
 
     /// Calls visit for the lane's nodes that are inside, in the order of the list.
@@ -124,20 +122,6 @@ private:
         return static_cast<std::uint32_t>(both >> base % nodes_of_word);
     }
 
-    TREAD_HD double lag_of(std::int64_t p) const
-    {
-        if constexpr (!Cycle::divides) { return 0; }
-        else
-        {
-            if (cycle.pair[p] != 0) { return 0; }
-            const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
-            const double       one = pairs.body[a].inverse_mass, other = b < bodies ? pairs.body[b].inverse_mass : 0;
-            const double in_parts = (cycle.body[a] != 0 ? one : 0) + (b < bodies && cycle.body[b] != 0 ? other : 0);
-            if (!(in_parts > 0)) { return 0; }
-            return 0.5 * (1 - 1.0 / cycle.parts) * dt * in_parts / (one + other);
-        }
-    }
-
     template<class Lanes>
     TREAD_HD NodeSums sum_nodes(std::int64_t p, const PairSetting& setting, const Lanes& lanes) const
     {
@@ -150,35 +134,31 @@ private:
                     });
         sums.stiffness = {lanes.sum(sums.stiffness.sum), lanes.largest(sums.stiffness.overlap)};
         if (!(sums.stiffness.overlap > 0)) { return sums; }
-        const double relaxation = relaxation_time(setting.law, sums.stiffness.sum), lag = lag_of(p);
+        const double relaxation = relaxation_time(setting.law, sums.stiffness.sum);
         each_inside(p, lanes,
                     [&](const NodeInField& node)
-                    { add_node(setting.law, node, setting.motion, relaxation, lag, sums.patch); });
+                    { add_node(setting.law, node, setting.motion, relaxation, sums.patch); });
         sums.patch.reduce(lanes);
         return sums;
     }
 };
 
-/// Rolling resistance, in a separate launch and only in scenes that have it. Cycle as in AnswerPair.
-template<class Cycle>
+/// Rolling resistance, in a separate launch and only in scenes that have it.
 struct ResistRolling
 {
     std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
-    double       dt; ///< s, of the substep
-    Cycle        cycle;
+    double       dt;
 
     TREAD_HD void operator()(std::int64_t p) const
     {
-        if (!cycle.is_due(p)) { return; }
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         const bool         wall = b >= bodies;
         const PairLaw      pair = law_of(pairs, law, bodies, pairs.key[p]);
         const Spins        spins{pairs.body[a].spin, wall ? Vec3<double>::Zero() : pairs.body[b].spin};
-        const Resistance   found =
-            resist_rolling(pair, pairs.patch[p], pairs.answers.force[p], pairs.answers.stiffness[p], spins,
-                           pairs.rolling[p], cycle.span_of_pair(p, dt));
+        const Resistance   found = resist_rolling(pair, pairs.patch[p], pairs.answers.force[p],
+                                                  pairs.answers.stiffness[p], spins, pairs.rolling[p], dt);
         pairs.answers.torque[p] += found.moment;
         pairs.answers.second_torque[pairs.answers.place[p]] -= found.moment;
         pairs.answers.energy[p] += found.energy;

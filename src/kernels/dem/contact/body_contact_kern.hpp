@@ -78,13 +78,13 @@ struct RelativeMotion
 /// node's own stiffness, so that flat faces have the same restitution as spheres (docs/theory.md#restitution); d' =
 /// -grad phi . v exactly. relaxation = 2 zeta sqrt(m*/K), s.
 TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const RelativeMotion& motion, double relaxation,
-                       double lag, PatchSums& sums)
+                       PatchSums& sums)
 {
     const Vec3<double>& y        = node.place;
     const Traction      traction = traction_at(law, node.overlap);
     const double        rate     = -node.sign * node.gradient.dot(motion.at(y));
     const double        elastic  = node.weight * traction.pressure;
-    const double        damping  = std::fmax(node.weight * traction.slope * (relaxation + lag) * rate, -elastic);
+    const double        damping  = std::fmax(node.weight * traction.slope * relaxation * rate, -elastic);
 
     const Vec3<double> force  = node.sign * (elastic + damping) * node.gradient;
     const double       length = force.norm();
@@ -94,7 +94,7 @@ TREAD_HD void add_node(const PairLaw& law, const NodeInField& node, const Relati
     sums.first += length * y;
     sums.second += length * Sym3<double>(y[0] * y[0], y[1] * y[1], y[2] * y[2], y[1] * y[2], y[0] * y[2], y[0] * y[1]);
     sums.energy += node.weight * traction.energy;
-    sums.damping += lag > 0 ? damping * rate * (relaxation / (relaxation + lag)) : damping * rate;
+    sums.damping += damping * rate;
 }
 
 /// Returns sum f |y - x_c|^2 in the plane normal to the unit vector n, divided by sum f.

@@ -14,27 +14,21 @@ namespace tread::dem
 /// Computes pairs.expected_stiffness of every body that substeps compute, N/m: the largest of three figures of its
 /// listed pairs. The stiffest first touch (two nodes in the linear part of the traction) of a separated pair; half of
 /// the sum of all first touches; the sum over the nodes in contact and those that enter when they move by twice the
-/// displacement that velocity and gravity (m/s2) give in dt (s). Where pairs.stiff.wanted, pairs.stiff.sand becomes
-/// what else makes up a body's present stiffness. Call after find_pairs. For bodies that several ranks integrate it
-/// uses this rank's pairs and writes their shares to shared.stiffness.
+/// displacement that velocity and gravity (m/s2) give in dt (s). Call after find_pairs. For bodies that several ranks
+/// integrate it uses this rank's pairs and writes their shares to shared.stiffness.
 template<class Exec>
 void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
                      const Vec3<double>& gravity, double dt, const SharedView& shared = {});
 
 /// Expected stiffness of shared bodies from the pairs of all ranks; call after the exchange of shares.
 template<class Exec>
-void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
+void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared);
 
 /// Returns the minimum of sqrt(m/K) (s) over the bodies that can move and do not sleep, where K is the larger of the
 /// body's present stiffness and of the expected one (expect_contacts); 0 without any contact, present or expected.
 /// Substeps of 0.2 times that conserve energy (docs/theory.md#time-step).
 template<class Exec>
 double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
-
-/// Returns the same for the stiffness of sand alone, which no part of a substep computes anew; needs
-/// pairs.stiff.wanted.
-template<class Exec>
-double smallest_sand_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 
 /// Returns the body with this minimum; call after smallest_contact_time.
 template<class Exec>

@@ -22,13 +22,12 @@ struct ExpectContacts
     const double* node_area;
     const double* entering; ///< N/m, per pair
     double*       expected;
-    double*       sand; ///< N/m, per body; null if not wanted
     SharedView    shared;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t b, const Lanes& lanes) const
     {
-        StiffnessShare sums{0, 0, 0, 0};
+        StiffnessShare sums{0, 0, 0};
         for (std::int64_t p = pairs.first[b] + lanes.lane(); p < pairs.first[b + 1]; p += lanes.lanes())
         {
             add(p, sums);
@@ -37,11 +36,9 @@ struct ExpectContacts
         {
             add(pairs.by_second[i], sums);
         }
-        sums = {lanes.sum(sums.touches), lanes.largest(sums.first_touch), lanes.sum(sums.approach),
-                lanes.sum(sums.live)};
+        sums = {lanes.sum(sums.touches), lanes.largest(sums.first_touch), lanes.sum(sums.approach)};
         if (lanes.lane() != 0) { return; }
         expected[b] = sums.most();
-        if (sand != nullptr) { sand[b] = bodies.stiffness[b] - sums.live; }
         if (shared.is_shared(b)) { shared.stiffness[shared.place[b]] = sums; }
     }
 
@@ -52,7 +49,6 @@ private:
         sums.touches += touch;
         sums.first_touch = std::fmax(sums.first_touch, touch);
         sums.approach += pairs.patch[p].stiffness + entering[p];
-        sums.live += pairs.patch[p].stiffness;
     }
 
     TREAD_HD double first_touch(std::int64_t p) const
@@ -91,21 +87,13 @@ private:
     }
 };
 
-/// Sums the stiffness of bodies that several ranks integrate.
+/// Sums the expected stiffness of bodies that several ranks integrate.
 struct ExpectTogether
 {
-    BodiesView bodies;
     SharedView shared;
     double*    expected;
-    double*    sand; ///< as in ExpectContacts
 
-    TREAD_HD void operator()(std::int64_t i) const
-    {
-        const std::int32_t   b   = shared.body[i];
-        const StiffnessShare sum = stiffness_of(shared, i);
-        expected[b]              = sum.most();
-        if (sand != nullptr) { sand[b] = bodies.stiffness[b] - sum.live; }
-    }
+    TREAD_HD void operator()(std::int64_t i) const { expected[shared.body[i]] = stiffness_of(shared, i).most(); }
 };
 
 struct WriteFrequency
@@ -118,19 +106,6 @@ struct WriteFrequency
     {
         const bool moves = bodies.is_owned(b) && !bodies.is_fixed(b) && !bodies.is_asleep(b);
         squared[b]       = moves ? std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b] : 0.0;
-    }
-};
-
-struct WriteSandFrequency
-{
-    BodiesView    bodies;
-    const double* sand;
-    double*       squared; ///< 1/s2
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        const bool moves = bodies.is_owned(b) && !bodies.is_fixed(b) && !bodies.is_asleep(b);
-        squared[b]       = moves ? std::fmax(sand[b], 0.0) / bodies.mass[b] : 0.0;
     }
 };
 
@@ -163,10 +138,8 @@ void expect(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, Body
     each_pair("anticipated contacts",
               AnticipatePair{bodies, law, pairs.view(), 2 * dt, 0.5 * dt * gravity, pairs.measure.data()});
     pairs.expected_stiffness.resize(bodies.count);
-    if (pairs.stiff.wanted) { pairs.stiff.sand.resize(bodies.count); }
     each_body("expected contacts", ExpectContacts{bodies, law, pairs.view(), pairs.sizes.node_area.data(),
-                                                  pairs.measure.data(), pairs.expected_stiffness.data(),
-                                                  pairs.stiff.wanted ? pairs.stiff.sand.data() : nullptr, shared});
+                                                  pairs.measure.data(), pairs.expected_stiffness.data(), shared});
 }
 
 } // namespace tread::dem::contact_limits
@@ -175,38 +148,22 @@ namespace tread::dem
 {
 
 template<class Exec>
-void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared)
+void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared)
 {
     for_each(exec, "expected contacts of shared bodies", shared.count,
-             contact_limits::ExpectTogether{bodies, shared, pairs.expected_stiffness.data(),
-                                            pairs.stiff.wanted ? pairs.stiff.sand.data() : nullptr});
-}
-
-/// Returns the inverse root of the largest of the squared frequencies (1/s2) that the item function writes.
-template<class Exec, class Write>
-double smallest_time(const Exec& exec, const char* name, Pairs<Exec>& pairs, std::int64_t bodies, const Write& write)
-{
-    double* largest = pairs.measure.data() + bodies;
-    for_each(exec, name, bodies, write);
-    largest_of_rows(exec, pairs.measure.data(), bodies, 1, largest);
-    const double squared = read(exec, largest);
-    return squared > 0 ? 1.0 / std::sqrt(squared) : 0.0;
+             contact_limits::ExpectTogether{shared, pairs.expected_stiffness.data()});
 }
 
 template<class Exec>
 double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
 {
     pairs.measure.resize(bodies.count + 1);
-    return smallest_time(exec, "contact frequencies", pairs, bodies.count,
-                         contact_limits::WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
-}
-
-template<class Exec>
-double smallest_sand_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
-{
-    pairs.measure.resize(bodies.count + 1);
-    return smallest_time(exec, "sand contact frequencies", pairs, bodies.count,
-                         contact_limits::WriteSandFrequency{bodies, pairs.stiff.sand.data(), pairs.measure.data()});
+    double* largest = pairs.measure.data() + bodies.count;
+    for_each(exec, "contact frequencies", bodies.count,
+             contact_limits::WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
+    largest_of_rows(exec, pairs.measure.data(), bodies.count, 1, largest);
+    const double squared = read(exec, largest);
+    return squared > 0 ? 1.0 / std::sqrt(squared) : 0.0;
 }
 
 template<class Exec>
@@ -221,8 +178,7 @@ const double* largest_overlap(const Exec& exec, Pairs<Exec>& pairs, const Bodies
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template void          expect_shared_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const SharedView&);    \
-    template double        smallest_sand_time(const Exec&, Pairs<Exec>&, const BodiesView&);                           \
+    template void          expect_shared_contacts(const Exec&, Pairs<Exec>&, const SharedView&);                       \
     template double        smallest_contact_time(const Exec&, Pairs<Exec>&, const BodiesView&);                        \
     template const double* largest_overlap(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)

@@ -58,24 +58,23 @@ void list_pairs_of_many_nodes(const Exec& gpu, Pairs<Exec>& pairs)
 }
 
 template<class Exec>
-void evaluate_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
-                    const Subcycle& cycle)
+void evaluate_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     if (pairs.nodes.node.size() == 0) { return; }
-    contact_nodes::by_meeting(
-        law, cycle,
-        [&](const auto& meet, const auto& part)
-        {
-            const auto evaluate = contact_nodes::EvaluateNodes{meet, bodies.count, law, pairs.view(), part};
-            for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()), evaluate);
-        });
+    by_narrow_phase(law,
+                    [&]<class Meet>(const Meet& meet)
+                    {
+                        const contact_nodes::EvaluateNodes<Meet> evaluate{meet, bodies.count, law, pairs.view()};
+                        for_each_group<nodes_of_word, 7>(gpu, "nodes found", node_words(pairs.nodes.node.size()),
+                                                         evaluate);
+                    });
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template void count_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                   \
     template void list_contact_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&);                    \
     template void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>&);                                                 \
-    template void evaluate_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, const Subcycle&)
+    template void evaluate_nodes(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -35,10 +35,8 @@ TREAD_HD bool has_many_nodes(const PairsView& pairs, std::int64_t p)
 template<class Exec>
 void list_pairs_of_many_nodes(const Exec&, Pairs<Exec>& pairs);
 
-/// Computes pairs.nodes.found and inside for every listed node of the pairs that are due in this part of a substep, at
-/// the bodies' present positions.
+/// Computes pairs.nodes.found and inside for every listed node at the bodies' present positions.
 template<class Exec>
-void evaluate_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
-                    const Subcycle& cycle = {});
+void evaluate_nodes(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 } // namespace tread::dem

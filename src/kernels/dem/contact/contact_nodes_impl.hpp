@@ -155,16 +155,14 @@ struct WriteNodes
     }
 };
 
-/// Evaluates the nodes of one word of pairs.inside. Cycle: WholeSubstep or Subcycle, of which nodes of pairs that are
-/// not due count as outside until their next part.
-template<class Meet, class Cycle>
+/// Evaluates the nodes of one word of pairs.inside.
+template<class Meet>
 struct EvaluateNodes
 {
     Meet         meet;
     std::int64_t bodies; ///< number of bodies
     BodyLaw      law;
     PairsView    pairs;
-    Cycle        cycle;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t word, const Lanes& lanes) const
@@ -173,7 +171,7 @@ struct EvaluateNodes
         for (std::int32_t bit = 0; bit < nodes_of_word; bit += lanes.lanes())
         {
             const std::int64_t i = word * nodes_of_word + bit + lanes.lane();
-            all |= lanes.vote(i < pairs.node_count && cycle.is_due(pairs.pair_of_node[i]) && inside(i)) << bit;
+            all |= lanes.vote(i < pairs.node_count && inside(i)) << bit;
         }
         if (lanes.lane() == 0) { pairs.inside[word] = all; }
     }
@@ -202,12 +200,5 @@ private:
         return in_field(meet.side(owner, other, second ? -1.0 : 1.0), node);
     }
 };
-
-/// Calls run(meet, part) with the narrow phase of the law, and with the part of the cycle (by_cycle).
-template<class Run>
-void by_meeting(const BodyLaw& law, const Subcycle& cycle, const Run& run)
-{
-    by_narrow_phase(law, [&](const auto& meet) { by_cycle(cycle, [&](const auto& part) { run(meet, part); }); });
-}
 
 } // namespace tread::dem::contact_nodes

@@ -54,11 +54,10 @@ private:
     template<class Lanes>
     TREAD_HD void free_link(std::int64_t k, const Lanes& lanes) const
     {
-        const std::int64_t      b     = joints.body[k];
-        const moving::BodyShare share = pairs.first != nullptr
-                                            ? moving::GatherPairs{pairs, bodies.count, WholeSubstep{}}(b, lanes)
-                                            : moving::BodyShare::zero();
-        WrenchShare             acting{outside(b, lanes), share.contact};
+        const std::int64_t      b = joints.body[k];
+        const moving::BodyShare share =
+            pairs.first != nullptr ? moving::GatherPairs{pairs, bodies.count}(b, lanes) : moving::BodyShare::zero();
+        WrenchShare acting{outside(b, lanes), share.contact};
         if (lanes.lane() != 0) { return; }
         if (shared.is_shared(b)) { acting = wrench_of(shared, shared.place[b]); }
         const ContactWrench contact = acting.outside + acting.pairs;

@@ -9,9 +9,8 @@ namespace tread::dem
 template<class Exec>
 void share_wrenches(const Exec& cpu, const BodyStep<Exec>& step)
 {
-    moving::with_share(
-        step, [&](const auto& share)
-        { for_each(cpu, "share wrenches", step.shared.count, [=](std::int64_t i) { share(i, OneLane{}); }); });
+    const auto share = moving::make_share(step);
+    for_each(cpu, "share wrenches", step.shared.count, [=](std::int64_t i) { share(i, OneLane{}); });
 }
 
 template<class Exec>

@@ -22,12 +22,8 @@ template<class Exec>
 void share_wrenches(const Exec& gpu, const BodyStep<Exec>& step)
 {
     constexpr int threads = 128;
-    moving::with_share(step,
-                       [&](const auto& share)
-                       {
-                           const auto part = group_part<threads, warp_size>(step.shared.count, share);
-                           for_each_block<threads>(gpu, "share wrenches", part.blocks, part.f);
-                       });
+    const auto    part    = group_part<threads, warp_size>(step.shared.count, moving::make_share(step));
+    for_each_block<threads>(gpu, "share wrenches", part.blocks, part.f);
 }
 
 template<class Exec>

@@ -5,7 +5,6 @@
 #include "kernels/dem/motion/outside.hpp"
 #include "kernels/dem/motion/prescribed.hpp"
 #include "kernels/dem/motion/shared.hpp"
-#include "kernels/dem/motion/subcycle.hpp"
 #include "kernels/dem/motion/totals.hpp"
 #include "kernels/dem/pairs/displacement_limit.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
@@ -46,7 +45,6 @@ struct BodyStep
     JointsView     joints     = {}; ///< empty in a scene without joints
 
     DisplacementLimit limit = {}; ///< empty where the list of pairs lasts for all substeps
-    Subcycle          cycle = {}; ///< part of the substep; no scene has it and joints
 };
 
 /// First part of move_bodies on several ranks: computes this rank's shares step.shared.wrench, which are then
@@ -56,9 +54,8 @@ void share_wrenches(const Exec&, const BodyStep<Exec>& step);
 
 /// Second half of a substep, after evaluate_contacts. Sets every body's force, torque and stiffness to the sum of the
 /// external wrenches and of its pairs' responses (if pairs were ever found); adds wall impulses, losses and the
-/// impulses of named bodies to the energy and momentum balance; solves the joints; moves all bodies that are awake, by
-/// step.motion.dt or, where subcycled, by a part of it; and looks ahead where step.limit asks for it. Every sum has a
-/// fixed order on one backend. Allocates nothing.
+/// impulses of named bodies to the energy and momentum balance; solves the joints; moves all bodies that are awake; and
+/// looks ahead where step.limit asks for it. Every sum has a fixed order on one backend. Allocates nothing.
 template<class Exec>
 void move_bodies(const Exec&, const BodyStep<Exec>& step);
 

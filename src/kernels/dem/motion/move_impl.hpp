@@ -46,40 +46,25 @@ TREAD_HD void reduce(BodyShare& share, const Lanes& lanes)
 }
 
 /// Adds the pairs of one body in the order of the list. Pairs in which it is first and pairs in which it is second are
-/// read in the same iteration, so that the loads overlap. Cycle: WholeSubstep or Subcycle.
-template<class Cycle>
+/// read in the same iteration, so that the loads overlap.
 struct GatherPairs
 {
     PairsView    pairs;
     std::int64_t bodies; ///< number of bodies
-    Cycle        cycle;
 
     template<class Lanes>
     TREAD_HD BodyShare operator()(std::int64_t b, const Lanes& lanes) const
     {
         BodyShare          share     = BodyShare::zero();
-        const Way          way       = way_of(b);
         const std::int64_t first_end = pairs.first[b + 1], second_end = pairs.second[b + 1];
         for (std::int64_t p = pairs.first[b] + lanes.lane(), i = pairs.second[b] + lanes.lane();
              p < first_end || i < second_end; p += lanes.lanes(), i += lanes.lanes())
         {
-            add_first(p < first_end, p, way, share);
-            add_second(i < second_end, i, way, share);
+            add_first(p < first_end, p, share);
+            add_second(i < second_end, i, share);
         }
         reduce(share, lanes);
         return share;
-    }
-
-    /// m, way of a body in the substep before this part; nothing where substeps have no parts.
-    struct NoWay
-    {
-    };
-    using Way = std::conditional_t<Cycle::divides, Vec3<double>, NoWay>;
-
-    TREAD_HD Way way_of(std::int64_t b) const
-    {
-        if constexpr (Cycle::divides) { return cycle.way(b, pairs.body[b].position); }
-        else { return {}; }
     }
 
 private:
@@ -90,7 +75,7 @@ private:
         return {chosen(there, value[0]), chosen(there, value[1]), chosen(there, value[2])};
     }
 
-    TREAD_HD void add_first(bool there, std::int64_t pair, const Way& way, BodyShare& share) const
+    TREAD_HD void add_first(bool there, std::int64_t pair, BodyShare& share) const
     {
         const std::int64_t p     = there ? pair : 0;
         const bool         wall  = second_of(pairs.key[p]) >= bodies;
@@ -98,26 +83,17 @@ private:
         share.contact.force += force;
         share.contact.torque += chosen(there, pairs.answers.torque[p]);
         share.contact.stiffness += chosen(there, pairs.answers.stiffness[p]);
-        share.friction += chosen(there && cycle.is_due(p), pairs.answers.friction[p]);
-        share.restitution += chosen(there && cycle.is_due(p), pairs.answers.restitution[p]);
+        share.friction += chosen(there, pairs.answers.friction[p]);
+        share.restitution += chosen(there, pairs.answers.restitution[p]);
         share.wall_force += chosen(wall, force);
-        if constexpr (Cycle::divides) { hold_line(p, force, way, share); }
     }
 
-    TREAD_HD void add_second(bool there, std::int64_t place, const Way& way, BodyShare& share) const
+    TREAD_HD void add_second(bool there, std::int64_t place, BodyShare& share) const
     {
-        const std::int64_t i     = there ? place : 0;
-        const Vec3<double> force = chosen(there, pairs.answers.second_force[i]);
-        share.contact.force += force;
+        const std::int64_t i = there ? place : 0;
+        share.contact.force += chosen(there, pairs.answers.second_force[i]);
         share.contact.torque += chosen(there, pairs.answers.second_torque[i]);
         share.contact.stiffness += chosen(there, pairs.answers.second_stiffness[i]);
-        if constexpr (Cycle::divides) { hold_line(pairs.by_second[i], force, way, share); }
-    }
-
-    /// Corrects the torque of a pair that is not due: its force stays on its line while the body's centre moves.
-    TREAD_HD void hold_line(std::int64_t p, const Vec3<double>& force, const Way& way, BodyShare& share) const
-    {
-        if (!cycle.is_due(p)) { share.contact.torque += force.cross(way); }
     }
 };
 
@@ -155,16 +131,6 @@ struct SumOutside
         return sum;
     }
 };
-
-/// Returns the wrench of sand on a body at `position` (m) in a part of a substep: its force stays on its line while the
-/// body's centre moves.
-template<class Cycle>
-TREAD_HD ContactWrench held_line(const Cycle& cycle, std::int64_t b, const Vec3<double>& position,
-                                 const ContactWrench& outside)
-{
-    if constexpr (!Cycle::divides) { return outside; }
-    else { return {outside.force, outside.torque + outside.force.cross(cycle.way(b, position)), outside.stiffness}; }
-}
 
 /// No local damping.
 struct Free
@@ -213,8 +179,8 @@ struct Motions
 
 /// Sums the forces on a body, adds them to its ledger, and moves it. Of the lanes that share it, the first one writes.
 /// Damping: Free or Damped; Outside: NothingOutside or SumOutside; Ranks: Alone or Together; Prescription: NoMotions or
-/// Motions; Cycle: WholeSubstep or Subcycle.
-template<class Damping, class Outside, class Ranks, class Prescription, class Cycle>
+/// Motions.
+template<class Damping, class Outside, class Ranks, class Prescription>
 struct Move
 {
     BodiesView    bodies;
@@ -224,12 +190,11 @@ struct Move
     JointWrenches joints;
     SleepWatch*   watch;   ///< of each body; null: none may sleep
     Vec3<double>  gravity; ///< m/s2
-    double        dt;      ///< s, of the substep
+    double        dt;      ///< s
     Damping       damping;
     Outside       outside;
     Ranks         ranks;
     Prescription  prescription;
-    Cycle         cycle;
 
     DisplacementLimit limit;
 
@@ -240,49 +205,43 @@ struct Move
         {
             if (!bodies.is_here(b)) { return; }
         }
-        if (!cycle.moves(b)) { return; }
         // read before the sums, so that the loads overlap with them
         ContactBody     shown = pairs.body != nullptr ? load(pairs.body + b) : contact_body(bodies, b);
         BodyMotion      body  = motion_of(bodies, b, shown);
-        const BodyShare share =
-            pairs.first != nullptr ? GatherPairs<Cycle>{pairs, bodies.count, cycle}(b, lanes) : BodyShare::zero();
-        const WrenchShare acting =
-            of_all_ranks(b, {held_line(cycle, b, shown.position, outside(b, lanes)), share.contact});
+        const BodyShare share = pairs.first != nullptr ? GatherPairs{pairs, bodies.count}(b, lanes) : BodyShare::zero();
+        const WrenchShare acting = of_all_ranks(b, {outside(b, lanes), share.contact});
         if (lanes.lane() != 0) { return; }
         const ContactWrench contact = acting.outside + acting.pairs;
-        const double        span    = cycle.span_of_body(b, dt);
         if (bodies.is_asleep(b))
         {
-            hold(b, share, contact, span);
+            hold(b, share, contact);
             return;
         }
-        account_contacts(b, share, contact, span);
+        account_contacts(b, share, contact);
         BodyTotal        unused;
-        BodyTotal&       total  = *total_of(b, unused);
         const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, span, total);
-        if (joints.place != nullptr) { account_joints(b, mean, total); }
-        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, span, total); }
-        if constexpr (Outside::acts) { account_outside(acting.outside, mean, span, total); }
-        cycle.begin(b, shown.position);
+        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, unused));
+        if (joints.place != nullptr) { account_joints(b, mean, *total_of(b, unused)); }
+        if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, *total_of(b, unused)); }
+        if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
         store_motion(bodies, b, body);
         if (pairs.body != nullptr) { show(body, shown, pairs.body + b); }
-        if (cycle.is_last(b)) { check_displacement_ahead(limit, bodies, b); }
+        check_displacement_ahead(limit, bodies, b);
     }
 
 private:
-    /// Holds a sleeper at rest for `span` (s) against `pull`, the wrench of awake bodies and sand.
-    TREAD_HD void hold(std::int64_t b, const BodyShare& share, const ContactWrench& pull, double span) const
+    /// Holds a sleeper at rest against `pull`, the wrench of awake bodies and sand.
+    TREAD_HD void hold(std::int64_t b, const BodyShare& share, const ContactWrench& pull) const
     {
         SleepWatch& load = watch[b];
-        account_contacts(b, share, pull + load.held, span);
-        load.impulse += span * pull.force;
-        load.angular_impulse += span * pull.torque;
-        if (bodies.is_owned(b)) { totals[b].holding_impulse -= span * pull.force; }
+        account_contacts(b, share, pull + load.held);
+        load.impulse += dt * pull.force;
+        load.angular_impulse += dt * pull.torque;
+        if (bodies.is_owned(b)) { totals[b].holding_impulse -= dt * pull.force; }
     }
 
     TREAD_HD MeanMotion integrate(std::int64_t b, BodyMotion& body, const ContactWrench& contact,
-                                  const Vec3<double>& pull, double span, BodyTotal& total) const
+                                  const Vec3<double>& pull, BodyTotal& total) const
     {
         if constexpr (Prescription::act)
         {
@@ -290,12 +249,12 @@ private:
             {
                 ContactImpulse reaction{Vec3<double>::Zero(), Vec3<double>::Zero()};
                 MeanMotion     mean =
-                    integrate_prescribed(prescription.view.motion[b], body, contact, pull, span, total, reaction);
+                    integrate_prescribed(prescription.view.motion[b], body, contact, pull, dt, total, reaction);
                 if (bodies.is_owned(b)) { add(reaction, prescription.view.reaction[b]); }
                 return mean;
             }
         }
-        return integrate_body(body, contact, pull, damping(bodies, b), span, total);
+        return integrate_body(body, contact, pull, damping(bodies, b), dt, total);
     }
 
     TREAD_HD static void add(const ContactImpulse& impulse, ContactImpulse& sum)
@@ -324,28 +283,25 @@ private:
         return totals + b;
     }
 
-    /// Notes the wrench, which acts for `span` (s).
-    TREAD_HD void account_contacts(std::int64_t b, const BodyShare& share, const ContactWrench& contact,
-                                   double span) const
+    TREAD_HD void account_contacts(std::int64_t b, const BodyShare& share, const ContactWrench& contact) const
     {
         bodies.force[b]     = contact.force;
         bodies.torque[b]    = contact.torque;
         bodies.stiffness[b] = contact.stiffness;
-        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += span * share.wall_force; }
+        if (share.wall_force.squaredNorm() > 0) { totals[b].wall_impulse += dt * share.wall_force; }
         if (share.friction != 0) { totals[b].friction += share.friction; }
         if (share.restitution != 0) { totals[b].restitution += share.restitution; }
         if (b < named.count && bodies.is_owned(b))
         {
-            named.impulse[b].linear += span * contact.force;
-            named.impulse[b].angular += span * contact.torque;
+            named.impulse[b].linear += dt * contact.force;
+            named.impulse[b].angular += dt * contact.torque;
         }
     }
 
-    TREAD_HD static void account_outside(const ContactWrench& wrench, const MeanMotion& mean, double span,
-                                         BodyTotal& total)
+    TREAD_HD void account_outside(const ContactWrench& wrench, const MeanMotion& mean, BodyTotal& total) const
     {
         const double power = wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity);
-        if (power != 0) { total.sand_work += span * power; }
+        if (power != 0) { total.sand_work += dt * power; }
     }
 
     TREAD_HD ContactWrench with_joints(std::int64_t b, const ContactWrench& contact) const
@@ -367,11 +323,10 @@ private:
     }
 
     /// Adds the work of the constraint that carries a share of the weight, as for locked degrees of freedom.
-    TREAD_HD static void account_carried_weight(const Vec3<double>& force, const MeanMotion& mean, double span,
-                                                BodyTotal& total)
+    TREAD_HD void account_carried_weight(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
     {
-        total.holding_impulse += span * force;
-        total.holding_work += span * force.dot(mean.velocity);
+        total.holding_impulse += dt * force;
+        total.holding_work += dt * force.dot(mean.velocity);
     }
 
     /// Updates the record that the contacts of the next substep read.
@@ -385,43 +340,36 @@ private:
     }
 };
 
-/// Computes this rank's share of the wrench on a body that several ranks integrate. Cycle: WholeSubstep or Subcycle.
-template<class Cycle>
+/// Computes this rank's share of the wrench on a body that several ranks integrate.
 struct ShareWrench
 {
     PairsView    pairs;  ///< first = null: pairs were never found
     std::int64_t bodies; ///< number of bodies
     SumOutside   outside;
     SharedView   shared;
-    Cycle        cycle;
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t i, const Lanes& lanes) const
     {
-        const std::int64_t b = shared.body[i];
-        if (!cycle.moves(b)) { return; }
-        const BodyShare share =
-            pairs.first != nullptr ? GatherPairs<Cycle>{pairs, bodies, cycle}(b, lanes) : BodyShare::zero();
-        const WrenchShare own{held_line(cycle, b, pairs.body[b].position, outside(b, lanes)), share.contact};
+        const std::int64_t b     = shared.body[i];
+        const BodyShare    share = pairs.first != nullptr ? GatherPairs{pairs, bodies}(b, lanes) : BodyShare::zero();
+        const WrenchShare  own{outside(b, lanes), share.contact};
         if (lanes.lane() == 0) { shared.wrench[i] = own; }
     }
 };
 
-/// Calls run with the ShareWrench of the step.
-template<class Exec, class Run>
-void with_share(const BodyStep<Exec>& step, Run run)
+/// Makes the ShareWrench of the step.
+template<class Exec>
+ShareWrench make_share(const BodyStep<Exec>& step)
 {
-    by_cycle(step.cycle,
-             [&](const auto& cycle) {
-                 run(ShareWrench{step.pairs.view(), step.bodies.count, {step.motion.outside}, step.shared, cycle});
-             });
+    return {step.pairs.view(), step.bodies.count, {step.motion.outside}, step.shared};
 }
 
 /// Makes the Move of the step.
-template<class Exec, class Damping, class Outside, class Ranks, class Prescription, class Cycle = WholeSubstep>
-Move<Damping, Outside, Ranks, Prescription, Cycle> make_move(const BodyStep<Exec>& step, const Damping& damping,
-                                                             const Outside& outside, const Ranks& ranks,
-                                                             const Prescription& prescription, const Cycle& cycle = {})
+template<class Exec, class Damping, class Outside, class Ranks, class Prescription>
+Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step, const Damping& damping,
+                                                      const Outside& outside, const Ranks& ranks,
+                                                      const Prescription& prescription)
 {
     return {step.bodies,
             step.pairs.view(),
@@ -435,7 +383,6 @@ Move<Damping, Outside, Ranks, Prescription, Cycle> make_move(const BodyStep<Exec
             outside,
             ranks,
             prescription,
-            cycle,
             step.limit};
 }
 
@@ -455,16 +402,6 @@ void with_motions(const BodyStep<Exec>& step, const Outside& outside, const Rank
     else { run(make_move(step, Damped{step.motion.damping}, outside, ranks, Motions{step.prescribed})); }
 }
 
-/// Calls run with the Move for a part of a subcycled substep. One Move serves any damping and any outside.
-template<class Exec, class Ranks, class Run>
-void with_subcycle(const BodyStep<Exec>& step, const Ranks& ranks, Run run)
-{
-    const SumOutside outside{step.motion.outside};
-    const Damped     damping{step.motion.damping};
-    if (step.prescribed.motion == nullptr) { run(make_move(step, damping, outside, ranks, NoMotions{}, step.cycle)); }
-    else { run(make_move(step, damping, outside, ranks, Motions{step.prescribed}, step.cycle)); }
-}
-
 /// Calls run with the Move for the motion. Kernels for each combination would take long to compile: bodies of several
 /// ranks and prescribed motions always sum the external wrenches. One rank may have sand on a body and another none,
 /// and both must integrate it by the same code.
@@ -472,12 +409,7 @@ template<class Exec, class Run>
 void with_move(const BodyStep<Exec>& step, Run run)
 {
     const SumOutside outside{step.motion.outside};
-    if (step.cycle.parts > 1)
-    {
-        if (step.bodies.role != nullptr) { with_subcycle(step, Together{step.shared}, run); }
-        else { with_subcycle(step, Alone{}, run); }
-    }
-    else if (step.bodies.role != nullptr) { with_motions(step, outside, Together{step.shared}, run); }
+    if (step.bodies.role != nullptr) { with_motions(step, outside, Together{step.shared}, run); }
     else if (step.motion.outside.run != nullptr || step.prescribed.motion != nullptr)
     {
         with_motions(step, outside, Alone{}, run);

@@ -23,7 +23,6 @@ struct StiffnessShare
     double touches;     ///< sum over first touches of separated pairs; in a bed most of them do not come about
     double first_touch; ///< largest of them
     double approach;    ///< sum over pairs in contact and pairs that approach
-    double live;        ///< sum over pairs in contact
 
     /// Stiffness to expect. A body that is set in motion leaves the neighbours behind it, so that half of its first
     /// touches may come about together.
@@ -41,7 +40,7 @@ struct SharedView
     WrenchShare*    wrench    = nullptr; ///< [rows], this rank's own shares first: [count]
     StiffnessShare* stiffness = nullptr; ///< [rows], likewise
     double*         speed     = nullptr; ///< [rows], likewise: m/s, maximum speed of the bodies near it
-    std::int32_t*   mark      = nullptr; ///< [rows], likewise: of the sleep of bodies, or of what is subcycled
+    std::int32_t*   mark      = nullptr; ///< [rows], likewise: of the sleep of bodies
 
     TREAD_HD bool is_shared(std::int64_t b) const { return place != nullptr && place[b] >= 0; }
 };
@@ -83,12 +82,12 @@ TREAD_HD std::int32_t mark_of_all(const SharedView& shared, std::int64_t i)
 
 TREAD_HD StiffnessShare stiffness_of(const SharedView& shared, std::int64_t i)
 {
-    StiffnessShare sum{0, 0, 0, 0};
+    StiffnessShare sum{0, 0, 0};
     for (std::int32_t r = shared.first[i]; r < shared.first[i + 1]; ++r)
     {
         const StiffnessShare& share = shared.stiffness[shared.row[r]];
         sum                         = {sum.touches + share.touches, std::fmax(sum.first_touch, share.first_touch),
-                                       sum.approach + share.approach, sum.live + share.live};
+                                       sum.approach + share.approach};
     }
     return sum;
 }

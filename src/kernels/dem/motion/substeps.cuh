@@ -13,13 +13,12 @@ namespace tread::dem
 inline constexpr int repeat_threads = 128, repeat_blocks_an_sm = 4;
 
 /// Whether there are too few pairs to fill the device, so that launch latency would dominate a substep. Rolling
-/// resistance, joints and the parts of a subcycled substep have separate launches; several ranks exchange wrenches
-/// between substeps.
+/// resistance and joints have separate launches; several ranks exchange wrenches between substeps.
 inline bool worth_one_launch(const BodyStep<Gpu>& step)
 {
     constexpr std::int64_t few = 50000;
     return step.pairs.key.size() < few && !step.pairs.resists_rolling && step.joints.row_count == 0 &&
-           step.bodies.role == nullptr && step.cycle.parts == 1;
+           step.bodies.role == nullptr;
 }
 
 /// Numbers of the substeps of one launch, which ends where step.limit says so.
@@ -34,15 +33,14 @@ auto nodes_part(const Meet& meet, const BodyStep<Gpu>& step)
     const std::int64_t nodes = step.pairs.nodes.node.size();
     return group_part<repeat_threads, nodes_of_word>(
         nodes > 0 ? node_words(nodes) : 0,
-        contact_nodes::EvaluateNodes{meet, step.bodies.count, step.law, step.pairs.view(), WholeSubstep{}});
+        contact_nodes::EvaluateNodes<Meet>{meet, step.bodies.count, step.law, step.pairs.view()});
 }
 
 template<class Meet>
 auto answers_part(const Meet& meet, const BodyStep<Gpu>& step)
 {
-    constexpr int lanes = 4;
-    const auto    answer =
-        body_contact::AnswerPair{meet, step.bodies.count, step.law, step.pairs.view(), step.motion.dt, WholeSubstep{}};
+    constexpr int                        lanes = 4;
+    const body_contact::AnswerPair<Meet> answer{meet, step.bodies.count, step.law, step.pairs.view(), step.motion.dt};
     return pair_part<repeat_threads, lanes>(answer.pairs, answer);
 }
 

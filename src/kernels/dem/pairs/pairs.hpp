@@ -13,7 +13,6 @@
 #include "kernels/dem/contact/ray_kern.hpp"
 #include "kernels/dem/contact/rolling_kern.hpp"
 #include "kernels/dem/motion/shared.hpp"
-#include "kernels/dem/motion/subcycle.hpp"
 #include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "kernels/dem/templates.hpp"
 
@@ -172,32 +171,6 @@ struct AllowedDisplacement
     Array<Exec, double> per_step;      ///< bounding radii, of bodies here: extra Verlet skin for one further step
 };
 
-/// Marks of what is subcycled (motion/subcycle.hpp); empty in a scene without subcycling.
-template<class Exec>
-struct StiffMarks
-{
-    explicit StiffMarks(const Exec& exec)
-        : pair(exec, "stiff pair marks")
-        , body(exec, "stiff body marks")
-        , start(exec, "stiff body positions")
-        , sand(exec, "body stiffness of sand")
-    {
-    }
-
-    bool wanted = false; ///< whether substeps may have parts
-
-    Array<Exec, std::int32_t> pair;  ///< 1: a pair of a body whose contacts are too stiff for a substep
-    Array<Exec, std::int32_t> body;  ///< 1: a body of such a pair
-    Array<Exec, Vec3<double>> start; ///< m, of marked bodies when the substep began
-    Array<Exec, double>       sand;  ///< N/m, part of each body's present stiffness that is not that of its pairs
-
-    /// The present part of a substep in so many.
-    Subcycle cycle(std::int32_t parts, std::int32_t part)
-    {
-        return {pair.data(), body.data(), start.data(), parts, part};
-    }
-};
-
 /// The nodes of a cluster that may enter the other body of a pair.
 struct NearCluster
 {
@@ -255,7 +228,6 @@ struct Pairs
         , jointed(exec, "pairs of jointed bodies")
         , sizes(exec)
         , displacement(exec)
-        , stiff(exec)
         , sleep(exec)
         , search(exec)
         , measure(exec, "pair measures")
@@ -304,7 +276,6 @@ struct Pairs
     Array<Exec, std::uint64_t> jointed;            ///< keys of pairs that never touch, ascending; set once
     BodySizes<Exec>            sizes;
     AllowedDisplacement<Exec>  displacement;
-    StiffMarks<Exec>           stiff;
     SleepingBodies<Exec>       sleep;
 
     // Scratch memory.
