@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "backend/counters.hpp"
 #include "backend/cuda_check.cuh"
@@ -37,10 +36,10 @@ bool waits(const char* name, void (*kernel)(Parameters...))
 }
 
 /// Launches a kernel that begins with wait_for_last_kernel().
-template<class... Parameters>
-void launch_kernel(const Gpu& gpu, const char* name, std::int64_t blocks, int threads, bool may_wait,
-                   void (*kernel)(Parameters...), const std::type_identity_t<Parameters>&... parameters)
+template<auto kernel, class... Parameters>
+void launch_kernel(const Gpu& gpu, const char* name, std::int64_t blocks, int threads, const Parameters&... parameters)
 {
+    static const bool   may_wait = waits(name, kernel);
     cudaLaunchAttribute early{};
     early.id                                         = cudaLaunchAttributeProgrammaticStreamSerialization;
     early.val.programmaticStreamSerializationAllowed = 1;
@@ -68,9 +67,8 @@ void for_each(const Gpu& gpu, const char* name, std::int64_t n, F f)
 {
     if (n == 0) { return; }
     gpu.counters->launched(name);
-    constexpr int     threads  = 128;
-    static const bool may_wait = waits(name, for_each_kernel<F>);
-    launch_kernel(gpu, name, (n + threads - 1) / threads, threads, may_wait, for_each_kernel<F>, gpu.number, n, f);
+    constexpr int threads = 128;
+    launch_kernel<for_each_kernel<F>>(gpu, name, (n + threads - 1) / threads, threads, gpu.number, n, f);
 }
 
 template<int threads, int blocks_an_sm, class F>
@@ -89,9 +87,7 @@ void for_each_block(const Gpu& gpu, const char* name, std::int64_t blocks, F f)
 {
     if (blocks == 0) { return; }
     gpu.counters->launched(name);
-    const auto        kernel   = for_each_block_kernel<threads, blocks_an_sm, F>;
-    static const bool may_wait = waits(name, kernel);
-    launch_kernel(gpu, name, blocks, threads, may_wait, kernel, gpu.number, f);
+    launch_kernel<for_each_block_kernel<threads, blocks_an_sm, F>>(gpu, name, blocks, threads, gpu.number, f);
 }
 
 } // namespace tread
