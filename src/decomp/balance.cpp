@@ -109,23 +109,30 @@ double imbalance_of(const std::vector<double>& loads)
     return middle > 0 ? largest(loads) / middle : 1;
 }
 
+std::vector<double> BalanceRule::felt(std::vector<double> loads) const
+{
+    for (double& load : loads) { load = std::max(load, least_); }
+    return loads;
+}
+
 bool BalanceRule::is_due(const std::vector<double>& loads, std::int64_t steps) const
 {
-    return imbalance_of(loads) > threshold_ &&
-           (largest(loads) - mean(loads)) * static_cast<double>(steps) > partition_cost * mean(loads);
+    const std::vector<double> all = felt(loads);
+    return imbalance_of(all) > threshold_ &&
+           (largest(all) - mean(all)) * static_cast<double>(steps) > partition_cost * mean(all);
 }
 
 bool BalanceRule::is_worth(const std::vector<double>& now, const std::vector<double>& after, double moved,
                            std::int64_t steps) const
 {
-    const double gain = (largest(now) - largest(after)) * static_cast<double>(steps);
+    const double gain = (largest(felt(now)) - largest(felt(after))) * static_cast<double>(steps);
     return gain > partition_cost * mean(now) + move_cost * moved / static_cast<double>(now.size());
 }
 
 template<class Exec>
-Balance<Exec>::Balance(Decomposition<Exec>& decomposition, double threshold)
+Balance<Exec>::Balance(Decomposition<Exec>& decomposition, const BalanceRule& rule)
     : decomposition_(decomposition)
-    , rule_(threshold)
+    , rule_(rule)
 {
 }
 

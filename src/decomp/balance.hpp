@@ -28,8 +28,11 @@ using PageLoads = std::map<std::uint64_t, double>;
 class BalanceRule
 {
 public:
-    explicit BalanceRule(double threshold)
+    /// `threshold`: bound on the largest load over the mean; `least`: load, in points, that takes a rank as long as any
+    /// smaller one.
+    explicit BalanceRule(double threshold, double least = 0)
         : threshold_(threshold)
+        , least_(least)
     {
     }
 
@@ -42,7 +45,11 @@ public:
                   std::int64_t steps) const;
 
 private:
-    double threshold_; ///< bound on the largest load over the mean
+    /// Loads by the time that they take.
+    std::vector<double> felt(std::vector<double> loads) const;
+
+    double threshold_;
+    double least_;
 };
 
 /// Largest load over the mean; 1 if there is no load.
@@ -53,7 +60,7 @@ template<class Exec>
 class Balance
 {
 public:
-    Balance(Decomposition<Exec>& decomposition, double threshold);
+    Balance(Decomposition<Exec>& decomposition, const BalanceRule& rule);
 
     /// Whether repartition() should be called before step number `step`. The same on all ranks, without communication.
     bool is_due(std::int64_t step) const;

@@ -286,10 +286,13 @@ Keys<CheckpointOptions> checkpoint_keys()
 
 Keys<Balance> balance_keys()
 {
-    return {optional(
-        "threshold", "", &Balance::threshold, number(above_up_to(1, 1e6)),
-        "The largest predicted work of a rank over the mean, beyond which pages are given to other ranks, if that "
-        "is predicted to save more than it costs.")};
+    return {
+        optional("threshold", "", &Balance::threshold, number(above_up_to(1, 1e6)),
+                 "The largest predicted work of a rank over the mean, beyond which pages are given to other ranks, "
+                 "if that is predicted to save more than it costs."),
+        optional("least_load", "points", &Balance::least_load, number_or("auto", between(0, 1e12)),
+                 "Work of a rank that takes as long as any smaller one, so that it is not divided further. \"auto\" "
+                 "is 500000 on a GPU, whose launches take as long as so many points, and 0 on a CPU.")};
 }
 
 Keys<Sleep> sleep_keys()

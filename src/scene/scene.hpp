@@ -307,6 +307,8 @@ struct Balance
 {
     double threshold = 1.15; ///< largest load of a rank over the mean above which pages may be repartitioned
 
+    std::optional<double> least_load; ///< points; load that takes a rank as long as any smaller one; empty means "auto"
+
     bool operator==(const Balance&) const = default;
 };
 

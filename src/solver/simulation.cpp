@@ -59,7 +59,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
 {
     if (decomposition != nullptr) { require_plan_of_ranks(plan); }
     measuring_.pace.largest_speed = speed_at_start(scene);
-    if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance.threshold); }
+    if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance); }
     if (plan.sand)
     {
         sand_.emplace(exec, scene, world,

@@ -2,11 +2,26 @@
 
 #include <utility>
 
+#include "backend/backends.hpp"
 #include "backend/instantiate.hpp"
 #include "solver/state_file.hpp"
 
 namespace tread::solver
 {
+namespace
+{
+
+/// Points that a GPU computes in the time of a step's launches: 91 us at 0.18 ns a point (docs/performance.md).
+constexpr double least_of_gpu = 5e5;
+
+} // namespace
+
+template<class Exec>
+WorkBalance<Exec>::WorkBalance(decomp::Decomposition<Exec>& decomposition, const scene::Balance& options)
+    : balance_(decomposition,
+               decomp::BalanceRule(options.threshold, options.least_load.value_or(is_gpu<Exec> ? least_of_gpu : 0)))
+{
+}
 
 template<class Exec>
 void WorkBalance<Exec>::note(std::int64_t version, double load, std::int64_t points_moved)

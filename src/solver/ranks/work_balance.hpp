@@ -1,6 +1,7 @@
 #pragma once
 
 #include "decomp/balance.hpp"
+#include "scene/scene.hpp"
 
 namespace tread::solver
 {
@@ -12,11 +13,7 @@ template<class Exec>
 class WorkBalance
 {
 public:
-    /// `threshold`: bound on the largest load over the mean.
-    WorkBalance(decomp::Decomposition<Exec>& decomposition, double threshold)
-        : balance_(decomposition, threshold)
-    {
-    }
+    WorkBalance(decomp::Decomposition<Exec>& decomposition, const scene::Balance& options);
 
     /// Whether repartition() should be called before the next step.
     bool is_due() const { return balance_.is_due(steps_); }

@@ -42,6 +42,19 @@ TEST(Balance, MuchThatMovesWantsMoreSteps)
     EXPECT_FALSE(rule.is_worth(now, after, 2e6, 120));
 }
 
+/// Where a little is awake, a GPU's launches take longer than its points, and ranks are left as they are.
+TEST(Balance, LittleLoadIsNotDivided)
+{
+    const BalanceRule of_gpu(1.15, 5e5);
+    constexpr long    steps = 1'000'000;
+    EXPECT_TRUE(rule.is_due({3.8e5, 1e3}, steps));
+    EXPECT_FALSE(of_gpu.is_due({3.8e5, 1e3}, steps));
+    EXPECT_FALSE(of_gpu.is_due({5.2e5, 1e3}, steps)) << "1.02 times the mean of what is felt";
+    EXPECT_TRUE(of_gpu.is_due({2e6, 1e3}, steps));
+    EXPECT_TRUE(of_gpu.is_worth({2e6, 1e3}, {1e6, 1e6}, 1e6, steps));
+    EXPECT_FALSE(of_gpu.is_worth({4.5e5, 0}, {2.25e5, 2.25e5}, 0, steps));
+}
+
 /// A row of 32 pages of 100 points owned by rank 0, except the last, of which all ranks have an equal share.
 PageLoads mostly_of_the_first()
 {
@@ -64,7 +77,7 @@ TEST(Balance, DealsOutWhatOneRankHasTooMuchOf)
     const int          ranks = test::world().size();
     Counters           counters;
     Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
-    Balance<Cpu>       balance(decomposition, 1.15);
+    Balance<Cpu>       balance(decomposition, rule);
     const PageLoads    own = mostly_of_the_first();
     EXPECT_FALSE(balance.is_due(1'000'000)) << "nothing is known yet";
     balance.note(sum_of(own), 0);
@@ -87,7 +100,7 @@ TEST(Balance, AnewIsNotAskedWhetherItPays)
     const int          ranks = test::world().size();
     Counters           counters;
     Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
-    Balance<Cpu>       balance(decomposition, 1.15);
+    Balance<Cpu>       balance(decomposition, rule);
     const PageLoads    own = mostly_of_the_first();
     balance.note(sum_of(own), 0);
     ASSERT_FALSE(balance.repartition(own, 0)) << "no step has shown that it would";
@@ -103,7 +116,7 @@ TEST(Balance, AnewLeavesPagesWithoutLoadAsTheyAre)
     Counters           counters;
     Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
     decomposition.owners.assign({1, 2}, {0, 0});
-    Balance<Cpu> balance(decomposition, 1.15);
+    Balance<Cpu> balance(decomposition, rule);
     balance.repartition_anew({}, 0);
     EXPECT_EQ(decomposition.owners.keys().size(), 2U);
     EXPECT_EQ(balance.row().repartitions, 0);
@@ -114,7 +127,7 @@ TEST(Balance, WaitsTwiceAsLongWhereItWasNotWorthIt)
     if (test::world().size() == 1) { GTEST_SKIP() << "one rank"; }
     Counters           counters;
     Decomposition<Cpu> decomposition(test::world(), Cpu{&counters}, {});
-    Balance<Cpu>       balance(decomposition, 1.15);
+    Balance<Cpu>       balance(decomposition, rule);
     PageLoads          own; // one page, which cannot be divided
     if (test::world().rank() == 0) { own[mpm::page_key({0, 0, 0})] = 3200; }
     balance.note(sum_of(own), 0);
