@@ -98,6 +98,9 @@ lock     = ["x", "y", "z", "roll", "pitch", "yaw"]
 /// Keeps the owners that a test assigns.
 const std::string owners_stay = "[balance]\nthreshold = 1e6\n";
 
+/// Divides a load of any size, on a GPU as well.
+const std::string any_load = "[balance]\nleast_load = 0\n";
+
 template<class Exec>
 class RankSand : public test::BackendTest<Exec>
 {
@@ -326,7 +329,7 @@ TYPED_TEST(RankSand, ARankMayHaveNothing)
 TYPED_TEST(RankSand, PagesAreDealtOutAnewWhereThatPays)
 {
     const auto                first_only = [](mpm::Index3) { return 0; };
-    typename TestFixture::Run all(this->exec(), column_text(), test::Ranks::all, first_only);
+    typename TestFixture::Run all(this->exec(), column_text() + any_load, test::Ranks::all, first_only);
     typename TestFixture::Run alone(this->exec(), column_text(), test::Ranks::this_one);
     EXPECT_EQ(all.simulation().balance()->imbalance, test::world().size());
     all.step(steps);
