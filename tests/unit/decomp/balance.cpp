@@ -45,8 +45,8 @@ TEST(Balance, MuchThatMovesWantsMoreSteps)
 /// Where a little is awake, a GPU's launches take longer than its points, and ranks are left as they are.
 TEST(Balance, LittleLoadIsNotDivided)
 {
-    const BalanceRule of_gpu(1.15, 5e5);
-    constexpr long    steps = 1'000'000;
+    const BalanceRule      of_gpu(1.15, 5e5);
+    constexpr std::int64_t steps = 1'000'000;
     EXPECT_TRUE(rule.is_due({3.8e5, 1e3}, steps));
     EXPECT_FALSE(of_gpu.is_due({3.8e5, 1e3}, steps));
     EXPECT_FALSE(of_gpu.is_due({5.2e5, 1e3}, steps)) << "1.02 times the mean of what is felt";
