@@ -38,15 +38,6 @@ friction_angle_deg = 30.0
                        height);
 }
 
-const std::string steel_text = R"(
-[[material]]
-name    = "steel"
-model   = "elastic"
-density = 7800.0
-young   = 1.0e9
-poisson = 0.3
-)";
-
 /// A trench of sand, 3.2 x 0.4 x 0.2 m, with geostatic stress.
 const std::string trench_text = sand_text(0.8) + R"(
 [[terrain]]
@@ -60,7 +51,7 @@ distance = 0.4
 )";
 
 /// A roller that falls 6 cm and then drives.
-const std::string roller_text = steel_text + R"(
+const std::string roller_text = test::soft_steel_text + R"(
 [[shape]]
 name      = "roller"
 generate  = { kind = "wheel", radius = 0.1, width = 0.2, wall_thickness = 0.04, grousers = 6 }
@@ -92,7 +83,7 @@ duration = 0.5
 )";
 
 /// A slope of 27 degrees, and a wheel at its foot that digs itself in, so that the slope comes down.
-const std::string undercut_text = sand_text(1.0) + steel_text + R"(
+const std::string undercut_text = sand_text(1.0) + test::soft_steel_text + R"(
 [[terrain]]
 material = "sand"
 region   = { box = [[0.0, 0.0, 0.0], [3.2, 0.4, 0.6]] }
