@@ -227,13 +227,13 @@ std::int64_t ray_bytes(const world::World& world)
     return bytes;
 }
 
-/// s, least resting_contact of the rocks; 0 without rocks.
+/// s, least resting_contact of the rocks, with their inertia scaled up as far as it may be; 0 without rocks.
 double resting_contact_of_rocks(const scene::Scene& scene, const world::World& world)
 {
     double least = 0;
     for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
     {
-        const double time = resting_contact(scene, world, b);
+        const double time = std::sqrt(scene.time.mass_scaling) * resting_contact(scene, world, b);
         if (std::isfinite(time)) { least = least == 0 ? time : std::min(least, time); }
     }
     return least;

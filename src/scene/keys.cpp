@@ -89,6 +89,10 @@ Keys<TimeOptions> time_keys()
                  "Substep over sqrt(m / sum K) of the stiffest body, where substeps are \"auto\". Contacts are stable "
                  "to 1.1; over "
                  "0.4 single impacts lose their energy balance; at 0.001 their error is that of rounding."),
+        optional("mass_scaling", "", &TimeOptions::mass_scaling, number(between(1, 100)),
+                 "Largest factor by which the inertia of rocks in the stiffest contacts may be scaled up, so that they "
+                 "do not shorten the substep of all; weights and contact forces stay. For slow flow alone. 1: none. "
+                 "docs/theory.md#mass-scaling."),
     };
 }
 

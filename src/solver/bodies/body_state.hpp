@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/dem/bodies.hpp"
+#include "kernels/dem/contact/contact_limits.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 #include "scene/scene.hpp"
 #include "solver/bodies/body_tables.hpp"
@@ -30,6 +31,8 @@ struct BodyState
 
     dem::BodiesView view() { return bodies.view(); }
     std::int64_t    named() const { return world.bodies.named; }
+
+    dem::MassScaling mass_scaling() const { return {named(), scene.time.mass_scaling}; }
 
     /// Numbers of the bodies that this rank has rows for.
     const BodyNumbers& numbers() const { return ranks ? ranks->numbers() : every; }

@@ -1,6 +1,7 @@
 #include "solver/bodies/dem_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "backend/instantiate.hpp"
@@ -105,8 +106,8 @@ void DemSolver<Exec>::list_moved(const dem::OutsideWrenches& outside)
 template<class Exec>
 double DemSolver<Exec>::shortest_contact()
 {
-    return smallest_over_ranks(state_.communicator(),
-                               dem::smallest_contact_time(state_.exec, state_.pairs, state_.view()));
+    return smallest_over_ranks(state_.communicator(), dem::smallest_contact_time(state_.exec, state_.pairs,
+                                                                                 state_.view(), state_.mass_scaling()));
 }
 
 template<class Exec>
@@ -187,12 +188,14 @@ Exec DemSolver<Exec>::substep_exec()
 template<class Exec>
 dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
 {
+    dem::Motion motion{state_.gravity, damping, dt};
+    if (state_.scene.time.mass_scaling > 1) { motion.scaled_above = std::pow(state_.scene.time.contact_share / dt, 2); }
     return {state_.pairs,
             state_.view(),
             state_.tables.law,
             reports_.totals.data(),
             means_.view(),
-            {state_.gravity, damping, dt},
+            motion,
             state_.shared(),
             motions_ ? motions_->view() : dem::PrescribedView{},
             joints_ ? joints_->view() : dem::JointsView{},

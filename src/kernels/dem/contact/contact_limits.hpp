@@ -24,11 +24,19 @@ void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, 
 template<class Exec>
 void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared);
 
+/// Largest factor by which the inertia of rocks, the bodies after the named ones, may be scaled up.
+struct MassScaling
+{
+    std::int64_t named = 0;
+    double       most  = 1;
+};
+
 /// Returns the minimum of sqrt(m/K) (s) over the bodies that can move and do not sleep, where K is the larger of the
-/// body's present stiffness and of the expected one (expect_contacts); 0 without any contact, present or expected.
-/// Substeps of 0.2 times that conserve energy (docs/theory.md#time-step).
+/// body's present stiffness and of the expected one (expect_contacts), and a rock's m is as large as it may be scaled;
+/// 0 without any contact, present or expected. Substeps of 0.2 times that conserve energy (docs/theory.md#time-step).
 template<class Exec>
-double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
+double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
+                             const MassScaling& scaling = {});
 
 /// Returns the body with this minimum; call after smallest_contact_time.
 template<class Exec>

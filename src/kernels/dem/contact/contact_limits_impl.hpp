@@ -100,12 +100,14 @@ struct WriteFrequency
 {
     BodiesView    bodies;
     const double* expected;
+    MassScaling   scaling;
     double*       squared; ///< 1/s2
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const bool moves = bodies.is_owned(b) && !bodies.is_fixed(b) && !bodies.is_asleep(b);
-        squared[b]       = moves ? std::fmax(bodies.stiffness[b], expected[b]) / bodies.mass[b] : 0.0;
+        const bool   moves = bodies.is_owned(b) && !bodies.is_fixed(b) && !bodies.is_asleep(b);
+        const double mass  = bodies.mass[b] * (b < scaling.named ? 1.0 : scaling.most);
+        squared[b]         = moves ? std::fmax(bodies.stiffness[b], expected[b]) / mass : 0.0;
     }
 };
 
@@ -155,12 +157,12 @@ void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedVi
 }
 
 template<class Exec>
-double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+double smallest_contact_time(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const MassScaling& scaling)
 {
     pairs.measure.resize(bodies.count + 1);
     double* largest = pairs.measure.data() + bodies.count;
     for_each(exec, "contact frequencies", bodies.count,
-             contact_limits::WriteFrequency{bodies, pairs.expected_stiffness.data(), pairs.measure.data()});
+             contact_limits::WriteFrequency{bodies, pairs.expected_stiffness.data(), scaling, pairs.measure.data()});
     largest_of_rows(exec, pairs.measure.data(), bodies.count, 1, largest);
     const double squared = read(exec, largest);
     return squared > 0 ? 1.0 / std::sqrt(squared) : 0.0;
@@ -179,7 +181,7 @@ const double* largest_overlap(const Exec& exec, Pairs<Exec>& pairs, const Bodies
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template void          expect_shared_contacts(const Exec&, Pairs<Exec>&, const SharedView&);                       \
-    template double        smallest_contact_time(const Exec&, Pairs<Exec>&, const BodiesView&);                        \
+    template double        smallest_contact_time(const Exec&, Pairs<Exec>&, const BodiesView&, const MassScaling&);    \
     template const double* largest_overlap(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE

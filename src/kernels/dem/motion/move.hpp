@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "kernels/dem/joints/joint_rows.hpp"
 #include "kernels/dem/motion/impulses.hpp"
 #include "kernels/dem/motion/outside.hpp"
@@ -27,6 +29,9 @@ struct Motion
     double       dt;      ///< s, of the substep
 
     OutsideWrenches outside = {};
+
+    double scaled_above = std::numeric_limits<double>::infinity(); ///< 1/s2, sum K / m of a rock from which on its
+                                                                   ///< inertia is scaled up; infinity: never
 };
 
 /// All data that a substep of bodies needs.

@@ -66,9 +66,10 @@ struct Move
     BodyTotal*    totals;
     NamedImpulses named;
     JointWrenches joints;
-    SleepWatch*   watch;   ///< of each body; null: none may sleep
-    Vec3<double>  gravity; ///< m/s2
-    double        dt;      ///< s
+    SleepWatch*   watch;        ///< of each body; null: none may sleep
+    Vec3<double>  gravity;      ///< m/s2
+    double        dt;           ///< s
+    double        scaled_above; ///< 1/s2, Motion::scaled_above
     Damping       damping;
     Outside       outside;
     Ranks         ranks;
@@ -97,8 +98,11 @@ struct Move
         }
         account_contacts(b, share, contact);
         BodyTotal        unused;
-        const double     weight = bodies.acting_weight(b, body.locked);
-        const MeanMotion mean   = integrate(b, body, with_joints(b, contact), weight * gravity, *total_of(b, unused));
+        const double     weight   = bodies.acting_weight(b, body.locked);
+        const double     yielding = 1 / inertia_factor(b, body.mass, contact);
+        const MeanMotion mean     = integrate(b, body, scaled(yielding, with_joints(b, contact)),
+                                              yielding * weight * gravity, *total_of(b, unused));
+        if (yielding != 1) { account_scaling(yielding - 1, body.mass, contact, mean, *total_of(b, unused)); }
         if (joints.place != nullptr) { account_joints(b, mean, *total_of(b, unused)); }
         if (weight != 1) { account_carried_weight((weight - 1) * body.mass * gravity, mean, *total_of(b, unused)); }
         if constexpr (Outside::acts) { account_outside(acting.outside, mean, *total_of(b, unused)); }
@@ -200,6 +204,27 @@ private:
             dt * (pull.working_force.dot(mean.velocity) + pull.working_torque.dot(mean.angular_velocity));
     }
 
+    /// Returns the factor by which this substep scales the inertia of a rock, as if that of the rock were such that its
+    /// contacts bear the substep; 1 for a named body.
+    TREAD_HD double inertia_factor(std::int64_t b, double mass, const ContactWrench& contact) const
+    {
+        return b < named.count ? 1.0 : std::fmax(1.0, contact.stiffness / (mass * scaled_above));
+    }
+
+    TREAD_HD static ContactWrench scaled(double factor, const ContactWrench& wrench)
+    {
+        return {factor * wrench.force, factor * wrench.torque, wrench.stiffness};
+    }
+
+    /// Adds what scaled inertia takes of all that acts on a rock: `share` of it, negative.
+    TREAD_HD void account_scaling(double share, double mass, const ContactWrench& contact, const MeanMotion& mean,
+                                  BodyTotal& total) const
+    {
+        const Vec3<double> force = share * (contact.force + mass * gravity);
+        total.holding_impulse += dt * force;
+        total.holding_work += dt * (force.dot(mean.velocity) + share * contact.torque.dot(mean.angular_velocity));
+    }
+
     /// Adds the work of the constraint that carries a share of the weight, as for locked degrees of freedom.
     TREAD_HD void account_carried_weight(const Vec3<double>& force, const MeanMotion& mean, BodyTotal& total) const
     {
@@ -257,6 +282,7 @@ Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step
             step.pairs.sleep.watch.data(),
             step.motion.gravity,
             step.motion.dt,
+            step.motion.scaled_above,
             damping,
             outside,
             ranks,
