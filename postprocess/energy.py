@@ -17,7 +17,7 @@ from tread_post.style import COLOURS, figure_grid, finish, readable, with_unit, 
 HELD = {"kinetic_bodies": "motion of bodies", "kinetic_points": "motion of sand", "strain": "strain of sand", "contact": "contacts",
         "gravity": "height, from the start"}
 LOST = {"plastic": "plastic work", "friction": "friction of bodies and contacts", "restitution": "impacts", "damping": "local damping",
-        "transfer": "points to grid and back", "coupling": "between sand and bodies"}
+        "transfer": "points to grid and back", "coupling": "between sand and bodies", "mass_scaling": "scaled inertia of rocks"}
 
 
 def arguments():
@@ -29,10 +29,10 @@ def arguments():
 
 def plot_parts(axis, energy, parts, title):
     """Plots the parts that ever matter, largest first; gravity as its change, because its zero is arbitrary."""
-    series = {name: energy[name] - (energy[name][0] if name == "gravity" else 0.0) for name in parts}
+    series = {name: energy[name] - (energy[name][0] if name == "gravity" else 0.0) for name in parts if name in energy}
     factor, unit = readable(np.concatenate(list(series.values())), "J")
-    shown = [name for name in parts if np.abs(series[name]).max(initial=0) > 0]
-    for name, colour, dashes in zip(shown, COLOURS, ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)))):
+    shown = [name for name in series if np.abs(series[name]).max(initial=0) > 0]
+    for name, colour, dashes in zip(shown, COLOURS, ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 3)), (0, (8, 2)))):
         axis.plot(energy["time"], factor * series[name], color=colour, linestyle=dashes, linewidth=1.7, label=parts[name])
     axis.set(title=title, ylabel=with_unit("energy", unit), xlabel="time  [s]")
     axis.legend(loc="best", framealpha=0.85, edgecolor="none", fontsize=10)

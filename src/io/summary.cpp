@@ -206,7 +206,8 @@ std::string to_json(const Summary& summary)
                             {"momentum", summary.errors.momentum},
                             {"energy", summary.errors.energy},
                             {"transfer", summary.errors.transfer},
-                            {"coupling", summary.errors.coupling}};
+                            {"coupling", summary.errors.coupling},
+                            {"mass_scaling", summary.errors.mass_scaling}};
     json["resolution"]   = resolution_of(summary);
     json["answers"]      = answers_of(summary);
     json["grid_error"]   = grid_error_of(summary);

@@ -37,6 +37,8 @@ struct ErrorReport
     double energy   = 0; ///< unaccounted energy over the largest energy exchanged
     double transfer = 0; ///< lost between points and grid, over the same
     double coupling = 0; ///< residual of the contacts between sand and bodies, over the same
+
+    double mass_scaling = 0; ///< taken by the scaled inertia of rocks, over the same
 };
 
 /// A completed phase.

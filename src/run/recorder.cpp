@@ -24,7 +24,7 @@ std::vector<io::Column> wheel_columns()
             {"drawbar_pull", 1, "N"}, {"power", 1, "W"}};
 }
 
-std::vector<io::Column> energy_columns()
+std::vector<io::Column> energy_columns(const scene::Scene& scene)
 {
     std::vector<io::Column> columns = {{"time", 1, "s"}};
     for (const char* name : {"kinetic_points", "strain", "kinetic_bodies", "contact", "gravity", "half_step", "plastic",
@@ -32,6 +32,7 @@ std::vector<io::Column> energy_columns()
     {
         columns.push_back({name, 1, "J"});
     }
+    if (scene.time.mass_scaling > 1) { columns.push_back({"mass_scaling", 1, "J"}); }
     return columns;
 }
 
@@ -75,7 +76,7 @@ std::vector<io::SeriesTable> series_tables(const scene::Scene& scene, int ranks)
     std::vector<io::SeriesTable> tables;
     for (const scene::Body& body : scene.bodies) { tables.push_back({group(body), columns_of(scene, body)}); }
     for (const scene::Joint& joint : scene.joints) { tables.push_back({group(joint), joint_columns()}); }
-    tables.push_back({"/energy", energy_columns()});
+    tables.push_back({"/energy", energy_columns(scene)});
     tables.push_back(
         {"/balance", {{"time", 1, "s"}, {"mass", 1, "kg"}, {"momentum", 3, "kg m/s"}, {"impulse_error", 1, "1"}}});
     tables.push_back({"/phases", {{"index", 1, "1"}, {"start", 1, "s"}}});
@@ -144,9 +145,12 @@ void Recorder::write(double time, const std::vector<solver::BodyRow>& bodies, co
         }
         series_.append(group(scene_.bodies[b]), row);
     }
-    series_.append("/energy", {time, energy.kinetic_points, energy.strain, energy.kinetic_bodies, energy.contact,
-                               energy.gravity, energy.half_step, energy.plastic, energy.friction, energy.restitution,
-                               energy.damping, energy.transfer, energy.coupling, energy.work_in, energy.total});
+    std::vector<double> parts = {
+        time,           energy.kinetic_points, energy.strain,   energy.kinetic_bodies, energy.contact,
+        energy.gravity, energy.half_step,      energy.plastic,  energy.friction,       energy.restitution,
+        energy.damping, energy.transfer,       energy.coupling, energy.work_in,        energy.total};
+    if (scene_.time.mass_scaling > 1) { parts.push_back(energy.mass_scaling); }
+    series_.append("/energy", parts);
     std::vector<double> row = {time, balance.mass};
     append(row, balance.momentum);
     row.push_back(balance.impulse_error);

@@ -78,6 +78,7 @@ std::vector<io::Figure> figures(const solver::Extremes& extremes, const io::Erro
     if (plan.sand) { add_sand(figures, extremes, errors, limits); }
     if (plan.coupling) { add_contact_with_sand(figures, extremes, errors, world, plan); }
     if (plan.bodies) { add_bodies(figures, extremes, world); }
+    if (plan.mass_scaling) { figures.push_back({"mass_scaling", std::abs(errors.mass_scaling), 0.01, 0.05}); }
     if (!plan.coupling) { return figures; }
     for (const io::Figure& figure : grouser_figures(wheel, world.geometry.finest_spacing()))
     {

@@ -33,6 +33,7 @@ struct Plan
     bool sleep;      ///< sleep of sand at rest
     bool rock_sleep; ///< sleep of rocks at rest
     bool motions;    ///< a prescribed motion in some phase
+    bool mass_scaling; ///< the inertia of rocks may be scaled up
     bool cap;        ///< points keep the pressure of a cap
     bool nonlocal;   ///< points keep a mean strain of their surroundings
 };

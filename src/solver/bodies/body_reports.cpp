@@ -34,7 +34,8 @@ void add_increase(RigidReport& report, const dem::BodyTotal& now, const dem::Bod
     // Velocities are those of half a substep earlier; so are commanded ones.
     report.driver_work = now.holding_work - last.holding_work + step.commands.work +
                          0.5 * step.substep * gravity.dot(step.commands.impulse);
-    report.sand_work = now.sand_work - last.sand_work;
+    report.scaling_work = now.scaling_work - last.scaling_work;
+    report.sand_work    = now.sand_work - last.sand_work;
 }
 
 /// Checks this rank's bodies. A maximum of speeds hides a value that is not finite; a sum does not.

@@ -77,6 +77,7 @@ void Ledger::steps(double dt, std::int64_t steps, const SandReport& sand, const 
                  std::exchange(contact_energy_, contact.energy);
     restitution_ += rigid.restitution;
     work_in_ += rigid.driver_work;
+    mass_scaling_ += rigid.scaling_work;
     impulse_ += moving_mass * span * gravity_ + Vec3<double>(sand.grid + mpm::grid_wall_impulse) +
                 Vec3<double>(sand.grid + mpm::grid_damping_impulse) + rigid.wall_impulse + rigid.damping_impulse +
                 rigid.driver_impulse;
@@ -103,8 +104,10 @@ EnergyRow Ledger::energy(const Census& now)
     row.damping        = damping_;
     row.transfer       = transfer_;
     row.coupling       = coupling_;
+    row.mass_scaling   = mass_scaling_;
     row.work_in        = work_in_;
-    row.total = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ + coupling_ - work_in_;
+    row.total = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ + coupling_ + mass_scaling_ -
+                work_in_;
 
     const double fallen = start_gravity_ - row.gravity;
     for (const double exchange :
@@ -117,6 +120,8 @@ EnergyRow Ledger::energy(const Census& now)
         errors_.energy   = (row.total - start_energy_ - gained(now)) / largest_exchange_;
         errors_.transfer = transfer_ / largest_exchange_;
         errors_.coupling = coupling_ / largest_exchange_;
+
+        errors_.mass_scaling = mass_scaling_ / largest_exchange_;
     }
     return row;
 }
@@ -146,6 +151,7 @@ void Ledger::transfer(StateFile& file)
     file.numbers("ledger/error_energy", errors_.energy);
     file.numbers("ledger/error_transfer", errors_.transfer);
     file.numbers("ledger/error_coupling", errors_.coupling);
+    file.numbers("ledger/error_mass_scaling", errors_.mass_scaling);
 }
 
 void Ledger::transfer_start(StateFile& file)
@@ -174,6 +180,7 @@ void Ledger::transfer_sums(StateFile& file)
     file.numbers("ledger/transfer", transfer_);
     file.numbers("ledger/work_in", work_in_);
     file.numbers("ledger/coupling", coupling_);
+    file.numbers("ledger/mass_scaling", mass_scaling_);
     file.numbers("ledger/contact_energy", contact_energy_);
     file.numbers("ledger/weight_power", weight_power_);
     file.doubles("ledger/impulse", impulse_);

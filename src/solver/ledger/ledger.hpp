@@ -17,6 +17,7 @@ struct RigidReport
     double       restitution     = 0;                    ///< J, body-body normal damping in the step
     double       damped          = 0;                    ///< J, dissipated by local damping in the step
     double       driver_work     = 0;                    ///< J, work of what holds and drives bodies, in the step
+    double       scaling_work    = 0;                    ///< J, taken by the scaled inertia of rocks, in the step
     double       sand_work       = 0;                    ///< J, work of sand on bodies, in the step
     double       weight_power    = 0;                    ///< W, power of the weight at the velocity after the step
     Vec3<double> wall_impulse    = Vec3<double>::Zero(); ///< N s, in the step
@@ -28,7 +29,7 @@ struct RigidReport
 };
 
 /// Number of leading doubles that are summed, and of those after them whose maximum is taken.
-inline constexpr int rigid_report_sums = 16, rigid_report_peaks = 3;
+inline constexpr int rigid_report_sums = 17, rigid_report_peaks = 3;
 static_assert(sizeof(RigidReport) == (rigid_report_sums + rigid_report_peaks) * sizeof(double));
 
 /// Energy of the contacts of sand with bodies in one step.
@@ -66,8 +67,9 @@ struct EnergyRow
     double plastic = 0, friction = 0, restitution = 0, damping = 0, transfer = 0, work_in = 0;
     /// Work of contact forces on sand and bodies that is neither friction nor stored in the contacts' springs:
     /// substeps use other velocities than the grid's mean over the step. First order in dt.
-    double coupling = 0;
-    double total    = 0; ///< stores and losses minus work_in: constant if nothing is unaccounted
+    double coupling     = 0;
+    double mass_scaling = 0; ///< taken by the scaled inertia of rocks, less what it has given back
+    double total        = 0; ///< stores and losses minus work_in: constant if nothing is unaccounted
 };
 
 struct BalanceRow
@@ -125,7 +127,7 @@ private:
     double          half_step_        = 0; ///< J
     double          stress_half_step_ = 0;
     double          plastic_ = 0, friction_ = 0, restitution_ = 0, damping_ = 0, transfer_ = 0, work_in_ = 0;
-    double          coupling_ = 0, contact_energy_ = 0;
+    double          coupling_ = 0, contact_energy_ = 0, mass_scaling_ = 0;
     double          body_half_step_ = 0; ///< J
     double          weight_power_   = 0; ///< W, on bodies
     Vec3<double>    impulse_        = Vec3<double>::Zero();

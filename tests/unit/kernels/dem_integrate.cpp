@@ -135,6 +135,48 @@ TYPED_TEST(RigidBody, LockedFreedomsKeepTheirVelocity)
     EXPECT_NEAR(spin[2][1], torque[1] / about_y, 1e-10);
 }
 
+/// A named body, a rock whose contacts bear the substep, and one whose contacts are nine times too stiff for its mass.
+TYPED_TEST(RigidBody, ScaledInertiaYieldsLessAndIsAccountedFor)
+{
+    constexpr double dt = 1e-3, bearable = 400, factor = 9; // s, 1/s2
+    SolidNumbers     numbers;
+    numbers.gravity = {0, 0, -3.72};
+    Solid rock;
+    rock.mass    = 2;
+    rock.inertia = 0.3 * Mat3<double>::Identity();
+    typename TestFixture::Scene          scene(this->exec(), any_shape(), {rock, rock, rock}, numbers);
+    const Vec3<double>                   force(1, 2, 3), torque(0.01, 0.02, -0.03);
+    const double                         stiff = factor * bearable * rock.mass;
+    Array<TypeParam, std::int32_t>       run(this->exec(), "test runs"), first(this->exec(), "test run parts");
+    Array<TypeParam, dem::ContactWrench> part(this->exec(), "test wrenches");
+    Array<TypeParam, dem::ContactImpulse> named(this->exec(), "test impulses", 1);
+    run.assign({0, 1, 2});
+    first.assign({0, 1, 2, 3});
+    part.assign({{force, torque, stiff}, {force, torque, 0.9 * bearable * rock.mass}, {force, torque, stiff}});
+    named.fill_zero();
+    dem::BodyStep<TypeParam> step = scene.step(dt, 0, {run.data(), first.data(), part.data()});
+    step.named                    = {named.data(), 1};
+    step.motion.scaled_above      = bearable;
+    move_bodies(this->exec(), step);
+
+    const auto         velocity = scene.bodies.velocity.to_host(), spin = scene.bodies.angular_velocity.to_host();
+    const auto         totals = scene.totals.to_host();
+    const Vec3<double> acting = force + rock.mass * numbers.gravity;
+    const double       factors[] = {1, 1, factor};
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+        const Vec3<double> moves = dt / (factors[b] * rock.mass) * acting, turns = dt / (factors[b] * 0.3) * torque;
+        EXPECT_LT((velocity[b] - moves).norm(), 1e-14) << b;
+        EXPECT_LT((spin[b] - turns).norm(), 1e-14) << b;
+        EXPECT_LT((totals[b].holding_impulse + dt * acting - rock.mass * moves).norm(), 1e-14) << b;
+        const double kinetic = 0.5 * (rock.mass * moves.squaredNorm() + 0.3 * turns.squaredNorm()),
+                     work    = 0.5 * dt * (acting.dot(moves) + torque.dot(turns));
+        EXPECT_NEAR(totals[b].scaling_work, work - kinetic, 1e-12 * work) << b;
+    }
+    EXPECT_EQ(totals[1].scaling_work, 0);
+    EXPECT_EQ(totals[1].holding_impulse, Vec3<double>::Zero());
+}
+
 TYPED_TEST(RigidBody, LocalDampingActsOnWhoTakesPartAndIsCounted)
 {
     constexpr double dt = 1e-3, alpha = 0.3;

@@ -222,7 +222,7 @@ private:
     {
         const Vec3<double> force = share * (contact.force + mass * gravity);
         total.holding_impulse += dt * force;
-        total.holding_work += dt * (force.dot(mean.velocity) + share * contact.torque.dot(mean.angular_velocity));
+        total.scaling_work -= dt * (force.dot(mean.velocity) + share * contact.torque.dot(mean.angular_velocity));
     }
 
     /// Adds the work of the constraint that carries a share of the weight, as for locked degrees of freedom.

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+
+#include "energy_balance.hpp"
+#include "rock_rest.hpp"
+
+// Rocks whose inertia is scaled up where their contacts want a shorter substep (docs/theory.md#mass-scaling).
+namespace
+{
+
+using namespace tread;
+
+template<class Exec>
+class MassScaling : public test::BackendTest<Exec>
+{
+};
+TYPED_TEST_SUITE(MassScaling, test::Backends, test::BackendNames);
+
+template<class Exec>
+class FullSizeMassScaling : public MassScaling<Exec>
+{
+};
+TYPED_TEST_SUITE(FullSizeMassScaling, test::Backends, test::BackendNames);
+
+std::string setting(double share, double mass_scaling)
+{
+    return fmt::format("[time]\ncontact_share = {}\nmass_scaling = {}\n", share, mass_scaling);
+}
+
+/// A bin three rocks of 10 mm wide, into which eighteen of them and three of 4 mm fall.
+std::string two_sizes(double share, double mass_scaling, double friction, double restitution)
+{
+    const auto rocks = [](int count, double diameter, double low, double high)
+    {
+        return fmt::format(R"(
+[[rocks]]
+shape = "bumpy"
+material = "stone"
+count = {}
+diameter = {}
+placement = "rain"
+region = {{ box = [[0.0, 0.0, {}], [0.03, 0.03, {}]] }}
+)",
+                           count, diameter, low, high);
+    };
+    return test::rock_domain({0.03, 0.03, 0.12}, 0, "x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\"",
+                             "linear_overlap = 1e-2") +
+           setting(share, mass_scaling) + test::stone(1e7, friction, restitution) +
+           "[[shape]]\nname = \"bumpy\"\ngenerate = { kind = \"rock\", seed = 5, nodes = 162 }\nsdf_cells = 40\n" +
+           rocks(9, 0.01, 0.0, 0.03) + rocks(3, 0.004, 0.03, 0.04) + rocks(9, 0.01, 0.045, 0.08);
+}
+
+/// What a run took, and how it kept its balance.
+struct Fallen
+{
+    double       unaccounted = 0; ///< largest share of the largest energy
+    std::int64_t substeps    = 0;
+};
+
+template<class Exec>
+Fallen fall(const Exec& exec, double share, double mass_scaling)
+{
+    constexpr double       duration = 0.4;
+    test::Experiment<Exec> run(exec, two_sizes(share, mass_scaling, 0, 1) + test::phase("fall", 0, duration));
+    Fallen                 found;
+    while (run.time() < duration)
+    {
+        found.substeps += run.advance().substeps;
+        solver::Ledger& ledger = run.simulation().ledger();
+        ledger.energy(run.simulation().census());
+        found.unaccounted = std::max(found.unaccounted, std::abs(ledger.errors().energy));
+    }
+    return found;
+}
+
+/// Inertia of nine times lets substeps be three times as long. What it takes and gives back is accounted for.
+TYPED_TEST(MassScaling, KeepsTheBalanceOfRocksThatFall)
+{
+    constexpr double share = 0.8 / 3, mass_scaling = 9;
+    const double     longer = std::sqrt(mass_scaling);
+    const Fallen     scaled = fall(this->exec(), share, mass_scaling), own = fall(this->exec(), share, 1),
+                 bold = fall(this->exec(), longer * share, 1);
+    test::report("substeps over those with their own inertia",
+                 static_cast<double>(scaled.substeps) / static_cast<double>(own.substeps), 1 / longer, 0.1,
+                 "1/sqrt(mass_scaling); rocks fall elsewhere");
+    test::report("unaccounted over the largest energy", scaled.unaccounted, 0, bold.unaccounted,
+                 "less than with substeps as long and their own inertia; the step of a rock is the same share of its "
+                 "contacts' time as without scaling");
+    EXPECT_NEAR(static_cast<double>(scaled.substeps) / static_cast<double>(own.substeps), 1 / longer, 0.1);
+    EXPECT_LT(scaled.unaccounted, bold.unaccounted);
+}
+
+TYPED_TEST(FullSizeMassScaling, RocksOfTwoSizesComeToRest)
+{
+    constexpr double damped = 2.6, left = 0.5; // as in rocks_rest.cpp
+    test::expect_rest(this->exec(),
+                      two_sizes(0.2, 9, 0.5, 0.5) + test::phase("settle", 0.3, damped) + test::phase("rest", 0, left), damped,
+                      left);
+}
+
+/// A ball of 2 cm that falls 5 cm onto a floor, without any loss.
+std::string ball_that_falls(double share, double mass_scaling)
+{
+    return test::rock_domain({0.1, 0.1, 0.1}, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
+           setting(share, mass_scaling) + test::stone(1e7, 0, 1) + R"(
+[[shape]]
+name = "ball"
+generate = { kind = "sphere", nodes = 162 }
+sdf_cells = 24
+[[rocks]]
+shape = "ball"
+material = "stone"
+count = 1
+diameter = 0.02
+placement = "grid"
+region = { box = [[0.03, 0.03, 0.05], [0.07, 0.07, 0.09]] }
+)" + test::phase("fall", 0, 0.2);
+}
+
+/// The inertia follows the overlap and the substep, whose changes give or take energy: what they do is accounted for.
+TYPED_TEST(MassScaling, AccountsForAnElasticImpact)
+{
+    constexpr double            share = 0.2, mass_scaling = 9, missed = 2 * share * share * mass_scaling / 4;
+    test::Experiment<TypeParam> run(this->exec(), ball_that_falls(share, mass_scaling));
+    double                      down = 0, up = 0, given = 0, net = 0;
+    run.run(
+        [&](double)
+        {
+            const solver::Census    now    = run.simulation().census();
+            const solver::EnergyRow energy = run.simulation().ledger().energy(now);
+            down                           = std::max(down, -now.rigid.momentum[2]);
+            up                             = std::max(up, now.rigid.momentum[2]);
+            given                          = std::max(given, -energy.mass_scaling);
+            net                            = -energy.mass_scaling;
+        });
+    const double mass = run.simulation().census().rigid.mass, fallen = 0.5 * down * down / mass,
+                 risen = 0.5 * up * up / mass;
+    test::report("energy after an impact less what scaled inertia gave, over that before", (risen - net) / fallen, 1,
+                 missed, "twice (0.2 sqrt(mass_scaling))^2/4: the substep is long for the ball's own mass where it "
+                         "comes and goes (AFaceThatArrivesAtOnceGainsNoEnergy)");
+    test::report("energy that scaled inertia brings to the impact, over the ball's", given / fallen, 4, 4,
+                 "inertia up to nine times as large has up to eight times as much; the ball leaves with " +
+                     std::to_string(up / down) + " of its speed");
+    EXPECT_NEAR((risen - net) / fallen, 1, missed);
+    EXPECT_GT(given, 0.5 * fallen) << "else the inertia was hardly scaled";
+    EXPECT_LT(given, (mass_scaling - 1) * fallen);
+}
+
+} // namespace
