@@ -4,6 +4,7 @@
 
 #include "backend/instantiate.hpp"
 #include "decomp/combine.hpp"
+#include "solver/bodies/row_transfer.hpp"
 #include "solver/bodies/sleeping_records.hpp"
 #include "solver/state_file.hpp"
 
@@ -48,24 +49,6 @@ void transfer_clock(StateFile& file, dem::SleepClock& clock, SleepSettings& sett
                  time(clock.slept), time(clock.lived),
                  accept::number(settings.phase, -1, static_cast<double>(phases) - 1));
 }
-
-/// Transfers arrays by row as those of all bodies.
-template<class Exec>
-struct RowTransfer
-{
-    template<class T, class Bound>
-    void operator()(const char* name, Array<Exec, T>& array, const Bound& accepted)
-    {
-        std::vector<T> values = array.to_host();
-        if (!file.loads()) { values = order.rows(std::move(values)); }
-        file.parts(name, values, accept::all(accept::rows(numbers.bodies()), accepted));
-        if (file.loads()) { array.assign(numbers.of_rows(values)); }
-    }
-
-    StateFile&         file;
-    const BodyNumbers& numbers;
-    BodyBlocks         order; ///< of the file
-};
 
 } // namespace
 

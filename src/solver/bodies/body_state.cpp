@@ -11,6 +11,7 @@
 #include "base/errors.hpp"
 #include "kernels/mpm/pages/far_cells.hpp"
 #include "solver/bodies/bounding_radii.hpp"
+#include "solver/bodies/row_transfer.hpp"
 #include "solver/state_file.hpp"
 #include "world/cover.hpp"
 
@@ -82,6 +83,7 @@ void upload(BodyState<Exec>& state)
     bodies.force.fill_zero();
     bodies.torque.fill_zero();
     bodies.stiffness.fill_zero();
+    if (state.scales_inertia) { state.inertia_factor.assign(std::vector<double>(rows, 1.0)); }
 }
 
 /// Writes all arrays by row for the bodies that this rank has rows for, at their start.
@@ -172,9 +174,11 @@ BodyState<Exec>::BodyState(const Exec& backend, const scene::Scene& of_scene, co
     , every(of_world.bodies.size())
     , gravity(of_scene.domain.gravity.data())
     , has_contact(plan.body_contact)
+    , scales_inertia(plan.mass_scaling)
     , tables(backend, of_scene, of_world, plan)
     , bodies(backend)
     , pairs(backend)
+    , inertia_factor(backend, "inertia factors of bodies")
 {
     require_distinct_keys(world);
     for (const double m : world.bodies.mass) { mass += m; }
@@ -239,6 +243,9 @@ void BodyState<Exec>::transfer(StateFile& file)
             }
             if (file.loads()) { array.assign(rows); }
         });
+    if (!scales_inertia) { return; }
+    RowTransfer<Exec> transfer{file, numbers(), order};
+    transfer("bodies/inertia_factor", inertia_factor, accept::within(1, accept::largest));
 }
 
 #define TREAD_INSTANTIATE(Exec) template struct BodyState<Exec>

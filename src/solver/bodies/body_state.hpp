@@ -32,7 +32,8 @@ struct BodyState
     dem::BodiesView view() { return bodies.view(); }
     std::int64_t    named() const { return world.bodies.named; }
 
-    dem::MassScaling mass_scaling() const { return {named(), scene.time.mass_scaling}; }
+    /// Largest factors by which the inertia of rocks may be scaled up.
+    dem::MassScaling mass_scaling() const { return {named(), scales_inertia ? scene.time.mass_scaling : 1}; }
 
     /// Numbers of the bodies that this rank has rows for.
     const BodyNumbers& numbers() const { return ranks ? ranks->numbers() : every; }
@@ -61,7 +62,8 @@ struct BodyState
     BodyBlocks blocks() const { return ranks ? ranks->blocks() : BodyBlocks(); }
 
     /// Moves bodies to the ranks that now own them (BodyRanks::assign_owners); several ranks only.
-    void assign_owners(UnheldRows unheld) { ranks->assign_owners({bodies, pairs, tables.bounding_radii}, unheld); }
+    void assign_owners(UnheldRows unheld) { ranks->assign_owners(
+            {bodies, pairs, tables.bounding_radii, scales_inertia ? &inertia_factor : nullptr}, unheld); }
 
     /// Change of rows in the last assign_owners(); null where there was none.
     const RowMoves<Exec>* row_moves() const { return ranks ? ranks->row_moves() : nullptr; }
@@ -76,9 +78,11 @@ struct BodyState
     Vec3<double>                   gravity;     ///< m/s2
     double                         mass = 0;    ///< kg, of all bodies
     bool                           has_contact; ///< whether a body may touch another or a wall
+    bool                           scales_inertia; ///< Plan::mass_scaling
     BodyTables<Exec>               tables;
     dem::Bodies<Exec>              bodies;
     dem::Pairs<Exec>               pairs;
+    Array<Exec, double>            inertia_factor; ///< InertiaScaling::factor; empty where no inertia is scaled
     std::optional<BodyRanks<Exec>> ranks; ///< only on several ranks
 };
 

@@ -189,7 +189,10 @@ template<class Exec>
 dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
 {
     dem::Motion motion{state_.gravity, damping, dt};
-    if (state_.scene.time.mass_scaling > 1) { motion.scaled_above = std::pow(state_.scene.time.contact_share / dt, 2); }
+    if (state_.scales_inertia)
+    {
+        motion.scaling = {state_.inertia_factor.data(), std::pow(state_.scene.time.contact_share / dt, 2)};
+    }
     return {state_.pairs,
             state_.view(),
             state_.tables.law,

@@ -27,6 +27,7 @@ decomp::Columns state_columns(const RowArrays<Exec>& arrays)
                         view.scale, view.shape, view.material, view.locked, view.damped, view.force, view.torque,
                         view.stiffness, arrays.pairs.displacement.allowed.data(), arrays.pairs.sizes.node_area.data(),
                         arrays.pairs.sizes.is_large.data(), arrays.bounding_radii.data());
+    if (arrays.inertia_factor != nullptr) { columns.add(decomp::rows(arrays.inertia_factor->data())); }
     if (!arrays.pairs.sleep.wanted) { return columns; }
     columns.add(decomp::rows(view.asleep));
     arrays.pairs.sleep.for_each_state([&](auto& array) { columns.add(decomp::rows(array.data())); });
@@ -197,6 +198,7 @@ void BodyRanks<Exec>::move_rows(const RowArrays<Exec>& arrays, RowChange change)
     take(arrays.pairs.sizes.node_area);
     take(arrays.pairs.sizes.is_large);
     take(arrays.bounding_radii);
+    if (arrays.inertia_factor != nullptr) { take(*arrays.inertia_factor); }
     take(borders_.clear);
     contact::keep_clearances(exec_, borders_, moves.come, std::vector<contact::Clearance>(moves.come.size()));
     arrays.pairs.displacement.search_radius.resize(moves.from.size());

@@ -28,6 +28,7 @@ struct RowArrays
     dem::Bodies<Exec>&   bodies;
     dem::Pairs<Exec>&    pairs;
     Array<Exec, double>& bounding_radii; ///< m
+    Array<Exec, double>* inertia_factor; ///< null where no inertia is scaled
 };
 
 /// A change of rows in a backend's memory. For a row without one before, `from` names any.

@@ -150,13 +150,15 @@ TYPED_TEST(RigidBody, ScaledInertiaYieldsLessAndIsAccountedFor)
     Array<TypeParam, std::int32_t>       run(this->exec(), "test runs"), first(this->exec(), "test run parts");
     Array<TypeParam, dem::ContactWrench> part(this->exec(), "test wrenches");
     Array<TypeParam, dem::ContactImpulse> named(this->exec(), "test impulses", 1);
+    Array<TypeParam, double> factor_now(this->exec(), "test factors");
     run.assign({0, 1, 2});
     first.assign({0, 1, 2, 3});
     part.assign({{force, torque, stiff}, {force, torque, 0.9 * bearable * rock.mass}, {force, torque, stiff}});
     named.fill_zero();
+    factor_now.assign({1, 1, 1});
     dem::BodyStep<TypeParam> step = scene.step(dt, 0, {run.data(), first.data(), part.data()});
     step.named                    = {named.data(), 1};
-    step.motion.scaled_above      = bearable;
+    step.motion.scaling           = {factor_now.data(), bearable};
     move_bodies(this->exec(), step);
 
     const auto         velocity = scene.bodies.velocity.to_host(), spin = scene.bodies.angular_velocity.to_host();
@@ -175,6 +177,13 @@ TYPED_TEST(RigidBody, ScaledInertiaYieldsLessAndIsAccountedFor)
     }
     EXPECT_EQ(totals[1].scaling_work, 0);
     EXPECT_EQ(totals[1].holding_impulse, Vec3<double>::Zero());
+
+    part.assign({{force, torque, 0}, {force, torque, 0}, {force, torque, 0}});
+    move_bodies(this->exec(), step);
+    const std::vector<double> kept = factor_now.to_host();
+    EXPECT_EQ(kept[0], 1);
+    EXPECT_EQ(kept[1], 1);
+    EXPECT_NEAR(kept[2], 1 + dem::kept_a_substep * (factor - 1), 1e-12) << "it goes slowly";
 }
 
 TYPED_TEST(RigidBody, LocalDampingActsOnWhoTakesPartAndIsCounted)

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <limits>
-
 #include "kernels/dem/joints/joint_rows.hpp"
 #include "kernels/dem/motion/impulses.hpp"
+#include "kernels/dem/motion/mass_scaling.hpp"
 #include "kernels/dem/motion/outside.hpp"
 #include "kernels/dem/motion/prescribed.hpp"
 #include "kernels/dem/motion/shared.hpp"
@@ -30,8 +29,7 @@ struct Motion
 
     OutsideWrenches outside = {};
 
-    double scaled_above = std::numeric_limits<double>::infinity(); ///< 1/s2, sum K / m of a rock from which on its
-                                                                   ///< inertia is scaled up; infinity: never
+    InertiaScaling scaling = {};
 };
 
 /// All data that a substep of bodies needs.

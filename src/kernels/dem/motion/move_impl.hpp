@@ -69,7 +69,7 @@ struct Move
     SleepWatch*   watch;        ///< of each body; null: none may sleep
     Vec3<double>  gravity;      ///< m/s2
     double        dt;           ///< s
-    double        scaled_above; ///< 1/s2, Motion::scaled_above
+    InertiaScaling scaling;
     Damping       damping;
     Outside       outside;
     Ranks         ranks;
@@ -204,11 +204,11 @@ private:
             dt * (pull.working_force.dot(mean.velocity) + pull.working_torque.dot(mean.angular_velocity));
     }
 
-    /// Returns the factor by which this substep scales the inertia of a rock, as if that of the rock were such that its
-    /// contacts bear the substep; 1 for a named body.
+    /// Returns the factor by which this substep scales a body's inertia; 1 for a named one.
     TREAD_HD double inertia_factor(std::int64_t b, double mass, const ContactWrench& contact) const
     {
-        return b < named.count ? 1.0 : std::fmax(1.0, contact.stiffness / (mass * scaled_above));
+        if (scaling.factor == nullptr || b < named.count) { return 1; }
+        return scaling.renewed(b, mass, contact.stiffness);
     }
 
     TREAD_HD static ContactWrench scaled(double factor, const ContactWrench& wrench)
@@ -282,7 +282,7 @@ Move<Damping, Outside, Ranks, Prescription> make_move(const BodyStep<Exec>& step
             step.pairs.sleep.watch.data(),
             step.motion.gravity,
             step.motion.dt,
-            step.motion.scaled_above,
+            step.motion.scaling,
             damping,
             outside,
             ranks,
