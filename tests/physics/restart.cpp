@@ -135,6 +135,13 @@ TYPED_TEST(Restart, OfRocksGivesTheSameBits)
     this->expect_same_bits(test::rocks_alone + test::rocks_text + "placement = \"rain\"\n" + test::thrown_roller_text);
 }
 
+/// The factors of the rocks' inertia are saved.
+TYPED_TEST(Restart, OfRocksWithScaledInertiaGivesTheSameBits)
+{
+    this->expect_same_bits(test::rocks_alone + test::rocks_text + "placement = \"rain\"\n" + test::thrown_roller_text +
+                           "[time]\nmass_scaling = 9.0\n");
+}
+
 TYPED_TEST(Restart, OfSandRocksAndAWheelGivesTheSameBits)
 {
     this->expect_same_bits(test::sand_text + test::rocks_text + test::thrown_roller_text);

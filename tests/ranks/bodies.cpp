@@ -164,6 +164,13 @@ region = {{ box = [[0.0, 0.0, 0.0], [0.2, 0.13, 0.13]] }}
            fixed_step(2e-4) + test::phase("slump", 0, 1);
 }
 
+std::string with_mass_scaling(const std::string& text, double factor)
+{
+    const std::string start = "[time]\n";
+    std::string       scene = text;
+    return scene.insert(scene.find(start) + start.size(), fmt::format("mass_scaling = {}\n", factor));
+}
+
 const Vec3<double> heap_size(0.4, 0.13, 0.2);
 
 auto heap_slabs(int parts) { return test::slabs(heap_size[0], parts); }
@@ -225,6 +232,23 @@ TYPED_TEST(BodiesOfRanks, AHeapOfRocksMigrates)
         EXPECT_GT(moved, 50);
         EXPECT_GT(ghosts, 50);
     }
+}
+
+/// The factors by which inertia is scaled are those of one rank, also of rocks that have come from others.
+TYPED_TEST(BodiesOfRanks, AHeapMigratesWithItsScaledInertia)
+{
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(with_mass_scaling(heap(300, clast(162)), 9)),
+                                    heap_size, heap_slabs(this->ranks()));
+    const auto                  before = run.bodies_together().position;
+    expect_as_alone(run, 150, 0.01, 1e-8);
+    const auto energy = [](auto& experiment)
+    { return experiment.simulation().ledger().energy(experiment.simulation().census()); };
+    const solver::EnergyRow one = energy(run.alone), all = energy(run.together);
+    std::printf("%d of 300 rocks changed their rank; scaled inertia took %.3g J, on ranks %.3g, of %.3g\n",
+                migrated(run, before, run.bodies_together().position), one.mass_scaling, all.mass_scaling,
+                one.kinetic_bodies);
+    EXPECT_NEAR(one.mass_scaling, all.mass_scaling, 1e-8 * one.kinetic_bodies);
+    EXPECT_GT(std::abs(one.mass_scaling), 1e-3 * one.kinetic_bodies) << "else hardly any inertia was scaled";
 }
 
 TYPED_TEST(BodiesOfRanks, ARankMayBeEmpty)

@@ -119,6 +119,13 @@ TEST(LeftOut, RocksAlone)
     expect_uses(without_terrain(test::sand_text) + above, bodies + pairs + pairs_without_sand);
 }
 
+/// Each body has a factor; no launch is added.
+TEST(LeftOut, RocksWhoseInertiaIsScaled)
+{
+    expect_uses(without_terrain(test::sand_text) + above + "[time]\nmass_scaling = 9.0\n",
+                bodies + pairs + pairs_without_sand + Part{{"inertia factors of bodies"}, {}});
+}
+
 TEST(LeftOut, AWheelOnRocks)
 {
     expect_uses(without_terrain(low_wheel()) + above, wheel + pairs + pairs_without_sand + pairs_of_a_large_body);

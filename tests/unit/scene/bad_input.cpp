@@ -97,6 +97,8 @@ const std::vector<BadCase> key_cases{
      "[time] dt: 1e-30 is out of range; accepted: number >= 1e-12 and <= 1000, or \"auto\" (s)"},
     {"share_of_nothing", "[grid]", "[time]\ncontact_share = 1e-12\n[grid]", 6,
      "[time] contact_share: 1e-12 is out of range; accepted: number >= 0.001 and <= 0.8"},
+    {"inertia_less_than_its_own", "[grid]", "[time]\nmass_scaling = 0.5\n[grid]", 6,
+     "[time] mass_scaling: 0.5 is out of range; accepted: number >= 1 and <= 100"},
     {"too_many_substeps", "[grid]", "[time]\nsubsteps = 1_000_000_000\n[grid]", 6,
      "[time] substeps: 1000000000 is out of range; accepted: integer 1 to 100000"},
     {"grid_of_atoms", "spacing = 0.05", "spacing = 1e-12", 6,
