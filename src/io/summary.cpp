@@ -202,12 +202,9 @@ std::string to_json(const Summary& summary)
     json["asleep"]       = summary.cost.asleep ? Json(*summary.cost.asleep) : Json();
     json["rocks_asleep"] = summary.cost.rocks_asleep ? Json(*summary.cost.rocks_asleep) : Json();
     json["stages"]       = stages_of(summary);
-    json["errors"]       = {{"mass", summary.errors.mass},
-                            {"momentum", summary.errors.momentum},
-                            {"energy", summary.errors.energy},
-                            {"transfer", summary.errors.transfer},
-                            {"coupling", summary.errors.coupling},
-                            {"mass_scaling", summary.errors.mass_scaling}};
+    json["errors"]       = {{"mass", summary.errors.mass},         {"momentum", summary.errors.momentum},
+                            {"energy", summary.errors.energy},     {"transfer", summary.errors.transfer},
+                            {"coupling", summary.errors.coupling}, {"mass_scaling", summary.errors.mass_scaling}};
     json["resolution"]   = resolution_of(summary);
     json["answers"]      = answers_of(summary);
     json["grid_error"]   = grid_error_of(summary);

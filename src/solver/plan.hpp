@@ -30,12 +30,12 @@ struct Plan
     bool damping;      ///< local damping in some phase
     bool rocks;
     bool snapshots;
-    bool sleep;      ///< sleep of sand at rest
-    bool rock_sleep; ///< sleep of rocks at rest
-    bool motions;    ///< a prescribed motion in some phase
+    bool sleep;        ///< sleep of sand at rest
+    bool rock_sleep;   ///< sleep of rocks at rest
+    bool motions;      ///< a prescribed motion in some phase
     bool mass_scaling; ///< the inertia of rocks may be scaled up
-    bool cap;        ///< points keep the pressure of a cap
-    bool nonlocal;   ///< points keep a mean strain of their surroundings
+    bool cap;          ///< points keep the pressure of a cap
+    bool nonlocal;     ///< points keep a mean strain of their surroundings
 };
 
 /// Plans a run of a scene on `ranks` ranks.

@@ -94,8 +94,8 @@ TYPED_TEST(FullSizeMassScaling, RocksOfTwoSizesComeToRest)
 {
     constexpr double damped = 2.6, left = 0.5; // as in rocks_rest.cpp
     test::expect_rest(this->exec(),
-                      two_sizes(0.2, 9, 0.5, 0.5) + test::phase("settle", 0.3, damped) + test::phase("rest", 0, left), damped,
-                      left);
+                      two_sizes(0.2, 9, 0.5, 0.5) + test::phase("settle", 0.3, damped) + test::phase("rest", 0, left),
+                      damped, left);
 }
 
 /// A ball of 2 cm that falls 5 cm onto a floor, without any loss.

@@ -62,8 +62,11 @@ struct BodyState
     BodyBlocks blocks() const { return ranks ? ranks->blocks() : BodyBlocks(); }
 
     /// Moves bodies to the ranks that now own them (BodyRanks::assign_owners); several ranks only.
-    void assign_owners(UnheldRows unheld) { ranks->assign_owners(
-            {bodies, pairs, tables.bounding_radii, scales_inertia ? &inertia_factor : nullptr}, unheld); }
+    void assign_owners(UnheldRows unheld)
+    {
+        ranks->assign_owners({bodies, pairs, tables.bounding_radii, scales_inertia ? &inertia_factor : nullptr},
+                             unheld);
+    }
 
     /// Change of rows in the last assign_owners(); null where there was none.
     const RowMoves<Exec>* row_moves() const { return ranks ? ranks->row_moves() : nullptr; }
@@ -74,16 +77,16 @@ struct BodyState
     Exec                           exec;
     const scene::Scene&            scene;
     const world::World&            world;
-    BodyNumbers                    every;       ///< all bodies, for which one rank has rows
-    Vec3<double>                   gravity;     ///< m/s2
-    double                         mass = 0;    ///< kg, of all bodies
-    bool                           has_contact; ///< whether a body may touch another or a wall
+    BodyNumbers                    every;          ///< all bodies, for which one rank has rows
+    Vec3<double>                   gravity;        ///< m/s2
+    double                         mass = 0;       ///< kg, of all bodies
+    bool                           has_contact;    ///< whether a body may touch another or a wall
     bool                           scales_inertia; ///< Plan::mass_scaling
     BodyTables<Exec>               tables;
     dem::Bodies<Exec>              bodies;
     dem::Pairs<Exec>               pairs;
     Array<Exec, double>            inertia_factor; ///< InertiaScaling::factor; empty where no inertia is scaled
-    std::optional<BodyRanks<Exec>> ranks; ///< only on several ranks
+    std::optional<BodyRanks<Exec>> ranks;          ///< only on several ranks
 };
 
 } // namespace tread::solver

@@ -106,8 +106,8 @@ EnergyRow Ledger::energy(const Census& now)
     row.coupling       = coupling_;
     row.mass_scaling   = mass_scaling_;
     row.work_in        = work_in_;
-    row.total = stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ + coupling_ + mass_scaling_ -
-                work_in_;
+    row.total =
+        stored(now) + plastic_ + friction_ + restitution_ + damping_ + transfer_ + coupling_ + mass_scaling_ - work_in_;
 
     const double fallen = start_gravity_ - row.gravity;
     for (const double exchange :

@@ -292,8 +292,9 @@ TYPED_TEST(BodyContact, StiffnessIsExpectedBeforeItIsFelt)
     expect_contacts(this->exec(), scene.pairs, scene.bodies.view(), scene.law(), Vec3<double>::Zero(), dt);
     const double live = scene.bodies.stiffness.to_host()[0];
     EXPECT_NEAR(smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view()), std::sqrt(mass / live), 1e-9);
-    const auto scaled = [&](std::int64_t named)
-    { return smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view(), {named, 9}); };
+    const auto scaled = [&](std::int64_t named) {
+        return smallest_contact_time(this->exec(), scene.pairs, scene.bodies.view(), {named, 9});
+    };
     EXPECT_NEAR(scaled(0), 3 * std::sqrt(mass / live), 1e-9);
     EXPECT_NEAR(scaled(1), std::sqrt(mass / live), 1e-9) << "a named body keeps its inertia";
     const double ratio =

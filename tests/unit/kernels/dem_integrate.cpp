@@ -144,13 +144,13 @@ TYPED_TEST(RigidBody, ScaledInertiaYieldsLessAndIsAccountedFor)
     Solid rock;
     rock.mass    = 2;
     rock.inertia = 0.3 * Mat3<double>::Identity();
-    typename TestFixture::Scene          scene(this->exec(), any_shape(), {rock, rock, rock}, numbers);
-    const Vec3<double>                   force(1, 2, 3), torque(0.01, 0.02, -0.03);
-    const double                         stiff = factor * bearable * rock.mass;
-    Array<TypeParam, std::int32_t>       run(this->exec(), "test runs"), first(this->exec(), "test run parts");
-    Array<TypeParam, dem::ContactWrench> part(this->exec(), "test wrenches");
+    typename TestFixture::Scene           scene(this->exec(), any_shape(), {rock, rock, rock}, numbers);
+    const Vec3<double>                    force(1, 2, 3), torque(0.01, 0.02, -0.03);
+    const double                          stiff = factor * bearable * rock.mass;
+    Array<TypeParam, std::int32_t>        run(this->exec(), "test runs"), first(this->exec(), "test run parts");
+    Array<TypeParam, dem::ContactWrench>  part(this->exec(), "test wrenches");
     Array<TypeParam, dem::ContactImpulse> named(this->exec(), "test impulses", 1);
-    Array<TypeParam, double> factor_now(this->exec(), "test factors");
+    Array<TypeParam, double>              factor_now(this->exec(), "test factors");
     run.assign({0, 1, 2});
     first.assign({0, 1, 2, 3});
     part.assign({{force, torque, stiff}, {force, torque, 0.9 * bearable * rock.mass}, {force, torque, stiff}});
@@ -162,8 +162,8 @@ TYPED_TEST(RigidBody, ScaledInertiaYieldsLessAndIsAccountedFor)
     move_bodies(this->exec(), step);
 
     const auto         velocity = scene.bodies.velocity.to_host(), spin = scene.bodies.angular_velocity.to_host();
-    const auto         totals = scene.totals.to_host();
-    const Vec3<double> acting = force + rock.mass * numbers.gravity;
+    const auto         totals    = scene.totals.to_host();
+    const Vec3<double> acting    = force + rock.mass * numbers.gravity;
     const double       factors[] = {1, 1, factor};
     for (std::size_t b = 0; b < 3; ++b)
     {

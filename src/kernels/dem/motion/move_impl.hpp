@@ -61,19 +61,19 @@ struct Motions
 template<class Damping, class Outside, class Ranks, class Prescription>
 struct Move
 {
-    BodiesView    bodies;
-    PairsView     pairs; ///< first = null: pairs were never found
-    BodyTotal*    totals;
-    NamedImpulses named;
-    JointWrenches joints;
-    SleepWatch*   watch;        ///< of each body; null: none may sleep
-    Vec3<double>  gravity;      ///< m/s2
-    double        dt;           ///< s
+    BodiesView     bodies;
+    PairsView      pairs; ///< first = null: pairs were never found
+    BodyTotal*     totals;
+    NamedImpulses  named;
+    JointWrenches  joints;
+    SleepWatch*    watch;   ///< of each body; null: none may sleep
+    Vec3<double>   gravity; ///< m/s2
+    double         dt;      ///< s
     InertiaScaling scaling;
-    Damping       damping;
-    Outside       outside;
-    Ranks         ranks;
-    Prescription  prescription;
+    Damping        damping;
+    Outside        outside;
+    Ranks          ranks;
+    Prescription   prescription;
 
     DisplacementLimit limit;
 

@@ -17,12 +17,12 @@ struct BodyTotal
     Vec3<double> damping_impulse; ///< from the local damping
     Vec3<double> holding_impulse; ///< from constraints: locked velocities, a share of the weight, joints, sleep; and
                                   ///< what scaled inertia takes
-    double       friction; ///< dissipated by tangential and torsional friction, of the pairs whose first body this is
-    double       restitution;  ///< dissipated by normal damping, of the same pairs
-    double       damping;      ///< dissipated by local damping
-    double       holding_work; ///< done on the body by the constraints of holding_impulse
-    double       scaling_work; ///< taken from the body by its scaled inertia
-    double       sand_work;    ///< done on the body by sand
+    double friction;     ///< dissipated by tangential and torsional friction, of the pairs whose first body this is
+    double restitution;  ///< dissipated by normal damping, of the same pairs
+    double damping;      ///< dissipated by local damping
+    double holding_work; ///< done on the body by the constraints of holding_impulse
+    double scaling_work; ///< taken from the body by its scaled inertia
+    double sand_work;    ///< done on the body by sand
 };
 
 /// Number of doubles in a BodyTotal, for sums over rows.
