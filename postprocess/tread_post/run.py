@@ -42,6 +42,9 @@ class Series:
     def __getitem__(self, name):
         return self.columns[name]
 
+    def __contains__(self, name):
+        return name in self.columns
+
 
 @dataclass(frozen=True)
 class Phase:

@@ -41,13 +41,13 @@ class RunningTest(unittest.TestCase):
     def test_read_and_drawn_while_it_runs(self):
         self.wait_for_rows(100)
         run, lengths = Run(self.path), []
-        for _ in range(50):
+        while len(lengths) < 50 or lengths[-1] == lengths[0]:  # rows come in blocks, and a loaded machine is slow to write one
+            self.assertIsNone(self.process.poll())
             wheel = run.wheel("wheel")
             lengths.append(len(wheel["time"]))
             self.assertTrue((np.diff(wheel["time"]) > 0).all())
             self.assertTrue((np.diff(run.energy["time"]) > 0).all())
             self.assertEqual(len(run.points(run.snapshots[0]).position), 2880)
-        self.assertGreater(lengths[-1], lengths[0])
         self.assertAlmostEqual(answers_of(run)[0]["slip"], 0.3, 5)
         for name in ("wheel_history.py", "energy.py", "slices.py"):
             done = subprocess.run([sys.executable, str(ROOT / "postprocess" / name), str(self.path)], capture_output=True, text=True, timeout=240, check=False)
