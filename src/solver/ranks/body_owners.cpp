@@ -176,8 +176,9 @@ BorderDecisions BodyOwners::decide(const BodiesAtBorders& bodies, const BodyHold
     BorderDecisions    found;
     for (std::size_t i = 0; i < bodies.row.size(); ++i)
     {
-        const auto        body = static_cast<std::int32_t>(numbers_.number(bodies.row[i]));
-        const Decision    made = decide_on(body, bodies.ball[i]);
+        const auto body = static_cast<std::int32_t>(numbers_.number(bodies.row[i]));
+        // The analyzer takes memory whose size it does not know for none.
+        const Decision    made = decide_on(body, bodies.ball[i]); // NOLINT(clang-analyzer-core.NonNullParamChecker)
         const BodyHolding last = before.of(body), now{body, made.owner, made.holders};
         // Another owner decides next, and this rank knows nothing when it is the owner again.
         found.clear.push_back(made.owner == here ? contact::Clearance{bodies.ball[i].position, made.within}
