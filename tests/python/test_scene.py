@@ -11,7 +11,7 @@ import unittest
 import numpy
 
 import tread
-from package import BODY, SCENE, TREAD, PackageTest, keys_of
+from package import BALL, BODY, SCENE, TREAD, PackageTest, keys_of
 
 
 DOCS = pathlib.Path(__file__).parents[2] / "docs"
@@ -19,9 +19,10 @@ DOCS = pathlib.Path(__file__).parents[2] / "docs"
 
 class Readers(PackageTest):
     def test_runs_and_studies_are_read(self):
-        run = tread.Run(DOCS / "paper" / "runs" / "slip_sand")
-        self.assertEqual((run.summary["status"], run.wheels), ("finished", ["wheel"]))
-        self.assertGreater(len(run.wheel("wheel")["drawbar_pull"]), 100)
+        self.run_scene(BALL)
+        run = tread.Run(self.directory / "run")
+        self.assertEqual((run.summary["status"], run.wheels), ("finished", ["ball"]))
+        self.assertEqual(len(run.wheel("ball")["drawbar_pull"]), 11)  # 0.1 s by rows of 0.01 s, and the start
         study = tread.read_study(DOCS / "studies" / "study_column.csv")
         self.assertTrue(study.quantities and all(isinstance(row.measured, float) for row in study.rows))
         with self.assertRaisesRegex(tread.RunError, "no campaign.h5"):
