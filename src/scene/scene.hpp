@@ -80,8 +80,7 @@ struct TimeOptions
     std::optional<std::int64_t> substeps; ///< contact substeps per step; empty means "auto"
     double                      contact_share =
         0.2; ///< share of sqrt(m / sum K) used by automatic substeps: docs/theory.md#time-step (measured limit: 1.1)
-    double mass_scaling =
-        1; ///< largest factor by which the inertia of a rock in stiff contact may be scaled up; 1: none
+    double mass_scaling = 1; ///< largest factor on the inertia of rocks in stiff contact; 1: none
 
     bool operator==(const TimeOptions&) const = default;
 };

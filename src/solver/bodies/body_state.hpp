@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kernels/dem/bodies.hpp"
-#include "kernels/dem/contact/contact_limits.hpp"
+#include "kernels/dem/motion/mass_scaling.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 #include "scene/scene.hpp"
 #include "solver/bodies/body_tables.hpp"
@@ -32,8 +32,7 @@ struct BodyState
     dem::BodiesView view() { return bodies.view(); }
     std::int64_t    named() const { return world.bodies.named; }
 
-    /// Largest factors by which the inertia of rocks may be scaled up.
-    dem::MassScaling mass_scaling() const { return {named(), scales_inertia ? scene.time.mass_scaling : 1}; }
+    dem::MassScaling mass_scaling() const { return {named(), scene.time.mass_scaling}; }
 
     /// Numbers of the bodies that this rank has rows for.
     const BodyNumbers& numbers() const { return ranks ? ranks->numbers() : every; }

@@ -12,7 +12,7 @@
 namespace tread::solver
 {
 
-/// Transfers arrays by row as those of all bodies.
+/// Saves or loads arrays that have a row for each body, as one array of all bodies of the scene.
 template<class Exec>
 struct RowTransfer
 {

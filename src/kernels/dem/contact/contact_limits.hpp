@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/dem/motion/mass_scaling.hpp"
 #include "kernels/dem/motion/shared.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
@@ -23,13 +24,6 @@ void expect_contacts(const Exec&, Pairs<Exec>& pairs, const BodiesView& bodies, 
 /// Expected stiffness of shared bodies from the pairs of all ranks; call after the exchange of shares.
 template<class Exec>
 void expect_shared_contacts(const Exec& exec, Pairs<Exec>& pairs, const SharedView& shared);
-
-/// Largest factor by which the inertia of rocks, the bodies after the named ones, may be scaled up.
-struct MassScaling
-{
-    std::int64_t named = 0;
-    double       most  = 1;
-};
 
 /// Returns the minimum of sqrt(m/K) (s) over the bodies that can move and do not sleep, where K is the larger of the
 /// body's present stiffness and of the expected one (expect_contacts), and a rock's m is as large as it may be scaled;

@@ -9,6 +9,14 @@
 namespace tread::dem
 {
 
+/// Largest factor by which the inertia of rocks, the bodies after the named ones, may be scaled up: bounds the
+/// choice of the substep.
+struct MassScaling
+{
+    std::int64_t named = 0;
+    double       most  = 1;
+};
+
 /// Share of a factor's excess over 1 that a rock keeps in a substep in which its contacts do not want it. A factor that
 /// followed the contacts at once would give a rock energy where it is pressed and let go.
 inline constexpr double kept_a_substep = 0.99;
