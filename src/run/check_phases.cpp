@@ -48,6 +48,7 @@ std::vector<std::string> doings(const scene::Phase& phase, std::size_t index, co
     if (!phase.motors.empty()) { texts.push_back(fmt::format("{} motors set", phase.motors.size())); }
     if (phase.gravity) { texts.push_back(fmt::format("gravity [{:.4g}]", fmt::join(*phase.gravity, ", "))); }
     if (!phase.contacts.empty()) { texts.push_back(fmt::format("{} contacts set", phase.contacts.size())); }
+    if (phase.mass_scaling) { texts.push_back(fmt::format("mass scaling {:.4g}", *phase.mass_scaling)); }
     if (phase.damping > 0) { texts.push_back(fmt::format("damping {:.4g}", phase.damping)); }
     return texts;
 }

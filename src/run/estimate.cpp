@@ -19,6 +19,7 @@
 #include "kernels/mpm/pages/moves.hpp"
 #include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/transfers/gather.hpp"
+#include "scene/phase_settings.hpp"
 #include "solver/coupling/sand_body_coupling.hpp"
 #include "solver/ledger/sand_guard.hpp"
 #include "solver/pace_limits.hpp"
@@ -227,13 +228,13 @@ std::int64_t ray_bytes(const world::World& world)
     return bytes;
 }
 
-/// s, least resting_contact of the rocks, with their inertia scaled up as far as it may be; 0 without rocks.
+/// s, least resting_contact of the rocks, by their own mass; 0 without rocks.
 double resting_contact_of_rocks(const scene::Scene& scene, const world::World& world)
 {
     double least = 0;
     for (auto b = static_cast<std::size_t>(world.bodies.named); b < world.bodies.size(); ++b)
     {
-        const double time = std::sqrt(scene.time.mass_scaling) * resting_contact(scene, world, b);
+        const double time = resting_contact(scene, world, b);
         if (std::isfinite(time)) { least = least == 0 ? time : std::min(least, time); }
     }
     return least;
@@ -376,9 +377,9 @@ Estimate estimate(const scene::Scene& scene, const world::World& world, const so
     wants.hopeless = limits.wave_speed > 0 ? solver::SandGuard::hopeless_courant * limits.spacing / limits.wave_speed
                                            : std::numeric_limits<double>::infinity();
     solver::Pace resting;
-    wants.node_pages             = static_cast<double>(pages.nodes);
-    wants.resting_contact        = resting_contact_of_rocks(scene, world);
-    resting.shortest_contact     = wants.resting_contact;
+    wants.node_pages         = static_cast<double>(pages.nodes);
+    wants.resting_contact    = resting_contact_of_rocks(scene, world);
+    resting.shortest_contact = std::sqrt(scene::mass_scaling_in(scene, scene.phases.size())) * wants.resting_contact;
     const solver::TimeStep later = solver::choose_step(scene.time, limits, resting, 0);
     wants.resting_dt             = later.dt;
     wants.substeps               = static_cast<double>(later.substeps);

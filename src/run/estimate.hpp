@@ -34,7 +34,7 @@ struct Estimate
     double       resting_dt;      ///< s, once rocks lie on each other; dt without rocks
     double       substeps;        ///< number in each such step
     double       steps;           ///< number of these steps, at most
-    double       resting_contact; ///< s, least sqrt(m / sum K) of rocks that lie on each other, m scaled; 0 without
+    double       resting_contact; ///< s, least sqrt(m / sum K) of rocks that lie on each other; 0 without
     double       node_pages;      ///< pages of grid nodes at the start
 };
 

@@ -6,6 +6,7 @@
 
 #include "run/motions.hpp"
 #include "run/phase_commands.hpp"
+#include "scene/phase_settings.hpp"
 
 namespace tread::run
 {
@@ -32,7 +33,7 @@ std::vector<io::Column> energy_columns(const scene::Scene& scene)
     {
         columns.push_back({name, 1, "J"});
     }
-    if (scene.time.mass_scaling > 1) { columns.push_back({"mass_scaling", 1, "J"}); }
+    if (scene::scales_inertia(scene)) { columns.push_back({"mass_scaling", 1, "J"}); }
     return columns;
 }
 
@@ -149,7 +150,7 @@ void Recorder::write(double time, const std::vector<solver::BodyRow>& bodies, co
         time,           energy.kinetic_points, energy.strain,   energy.kinetic_bodies, energy.contact,
         energy.gravity, energy.half_step,      energy.plastic,  energy.friction,       energy.restitution,
         energy.damping, energy.transfer,       energy.coupling, energy.work_in,        energy.total};
-    if (scene_.time.mass_scaling > 1) { parts.push_back(energy.mass_scaling); }
+    if (scene::scales_inertia(scene_)) { parts.push_back(energy.mass_scaling); }
     series_.append("/energy", parts);
     std::vector<double> row = {time, balance.mass};
     append(row, balance.momentum);

@@ -8,6 +8,7 @@
 
 #include "run/phase_commands.hpp"
 #include "run/phase_end.hpp"
+#include "scene/phase_settings.hpp"
 #include "solver/bodies/unchecked_span.hpp"
 #include "solver/ledger/measuring.hpp"
 #include "solver/pace_limits.hpp"
@@ -230,7 +231,7 @@ std::vector<PhasePace> expected_phases(const scene::Scene& scene, const world::W
         }
         solver::Pace pace;
         pace.largest_speed             = commanded_speed(scene, phase, radii, motors);
-        pace.shortest_contact          = contact;
+        pace.shortest_contact          = (plan.rocks ? std::sqrt(scene::mass_scaling_in(scene, p)) : 1) * contact;
         const bool             touches = plan.coupling && phase.until != scene::StopRule::equilibrium;
         const solver::TimeStep step    = expected_step(scene.time, limits, pace, touches);
         phases.push_back({phase_time(scene, p, plan, footings, ways), step.dt, static_cast<double>(step.substeps),

@@ -89,7 +89,7 @@ Keys<TimeOptions> time_keys()
                  "Substep over sqrt(m / sum K) of the stiffest body, where substeps are \"auto\". Contacts are stable "
                  "to 1.1; over "
                  "0.4 single impacts lose their energy balance; at 0.001 their error is that of rounding."),
-        optional("mass_scaling", "", &TimeOptions::mass_scaling, number(between(1, 100)),
+        optional("mass_scaling", "", &TimeOptions::mass_scaling, number(largest_scaling()),
                  "Largest factor by which the inertia of rocks in the stiffest contacts may be scaled up, so that they "
                  "do not shorten the substep of all; weights and contact forces stay. For slow flow alone. 1: none. "
                  "docs/theory.md#mass-scaling."),
@@ -254,6 +254,10 @@ Keys<Phase> phase_keys()
             "as before"),
         tables_key<Phase>("contacts", "[[phase]] contacts", &Phase::contacts, contact_setting_keys(),
                           "What changes in contacts from this phase on.", "nothing"),
+        optional("mass_scaling", "", &Phase::mass_scaling, number_or("", largest_scaling()),
+                 "As that of [time], from this phase on until another one sets it: to let a bed of rocks settle, say, "
+                 "before something falls on it with 1.",
+                 "as before"),
     };
 }
 

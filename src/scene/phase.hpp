@@ -74,6 +74,7 @@ struct Phase
     std::vector<MotorSetting>   motors;  ///< of joints
     std::optional<Vector3>      gravity; ///< m/s2
     std::vector<ContactSetting> contacts;
+    std::optional<double>       mass_scaling; ///< TimeOptions::mass_scaling
 
     bool operator==(const Phase&) const = default;
 };

@@ -7,6 +7,7 @@
 
 namespace tread::scene
 {
+
 Vector3 gravity_in(const Scene& scene, std::size_t phase)
 {
     for (std::size_t p = std::min(phase + 1, scene.phases.size()); p > 0; --p)
@@ -25,6 +26,21 @@ double largest_gravity(const Scene& scene)
         if (phase.gravity) { largest = std::max(largest, size(*phase.gravity)); }
     }
     return largest;
+}
+
+double mass_scaling_in(const Scene& scene, std::size_t phase)
+{
+    for (std::size_t p = std::min(phase + 1, scene.phases.size()); p > 0; --p)
+    {
+        if (const auto scaling = scene.phases[p - 1].mass_scaling) { return *scaling; }
+    }
+    return scene.time.mass_scaling;
+}
+
+bool scales_inertia(const Scene& scene)
+{
+    const auto scales = [](const Phase& phase) { return phase.mass_scaling.value_or(1) > 1; };
+    return mass_scaling_in(scene, 0) > 1 || std::any_of(scene.phases.begin(), scene.phases.end(), scales);
 }
 
 std::vector<Contact> contacts_in(const Scene& scene, std::size_t phase)

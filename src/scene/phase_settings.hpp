@@ -12,6 +12,13 @@ Vector3 gravity_in(const Scene& scene, std::size_t phase);
 /// Largest magnitude of gravity in any phase, m/s2.
 double largest_gravity(const Scene& scene);
 
+/// Largest factor on the inertia of rocks in a phase: that of the last phase up to it that names one, else that of
+/// [time].
+double mass_scaling_in(const Scene& scene, std::size_t phase);
+
+/// Whether the inertia of rocks may be scaled up in any phase.
+bool scales_inertia(const Scene& scene);
+
 /// The scene's contacts with the settings of all phases up to `phase`, for contact_of: the newest of a pair comes
 /// first.
 std::vector<Contact> contacts_in(const Scene& scene, std::size_t phase);

@@ -24,6 +24,7 @@ inline Range time_or_none() { return between(0, 1e10); }    ///< s
 inline Range interval() { return between(1e-12, 1e12); }    ///< s; longer than any run: "never"
 inline Range step_of_time() { return between(1e-12, 1e3); } ///< s
 inline Range coefficient() { return between(0, 1e6); }      ///< of friction; nothing slips from 1e3 on
+inline Range largest_scaling() { return between(1, 100); }  ///< of the inertia of rocks
 inline Range pure_number() { return between(0, 1e6); }
 
 } // namespace tread::scene

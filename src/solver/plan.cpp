@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/phase_settings.hpp"
+
 namespace tread::solver
 {
 
@@ -25,7 +27,7 @@ Plan make_plan(const scene::Scene& scene, const world::World& world, int ranks)
     plan.snapshots    = scene.output.snapshots_every > 0;
     plan.sleep        = plan.sand && scene.sleep.distance.has_value();
     plan.rock_sleep   = plan.rocks && plan.body_contact && scene.sleep.rock_speed.has_value();
-    plan.mass_scaling = plan.rocks && scene.time.mass_scaling > 1;
+    plan.mass_scaling = plan.rocks && scene::scales_inertia(scene);
     plan.motions      = std::any_of(scene.phases.begin(), scene.phases.end(), moved);
     plan.cap          = plan.sand && std::any_of(scene.materials.begin(), scene.materials.end(), capped);
     plan.nonlocal     = plan.sand && scene::softening_length(scene) > 0;

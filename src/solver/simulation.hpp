@@ -77,7 +77,8 @@ public:
     /// Sets the commands of the named bodies (held, driven, free) until the next call; `damping` is the phase's.
     void command(const std::vector<BodyCommand>& commands, double damping);
 
-    /// Call before each step with the index of its phase: sets gravity, contacts and motors to those of the phase.
+    /// Call before each step with the index of its phase: sets gravity, contacts, the scaling of inertia and
+    /// motors to those of the phase.
     void begin_phase(std::size_t phase);
 
     /// Sets the speed (rad/s) and the largest torque (N m; empty: as before) of a joint's motor until the phase ends.

@@ -29,6 +29,7 @@ void Simulation<Exec, Real>::begin_phase(std::size_t phase)
         {
             if (rigid_->asleep() > 0 && !measured()) { measure(); } // rocks wake: their pairs must be listed at once
             set_contacts(phase);
+            if (rigid_->set_mass_scaling(phase) && !measured()) { measure(); } // which chooses the substeps anew
         }
         phase_ = static_cast<std::int64_t>(phase);
     }

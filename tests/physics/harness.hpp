@@ -55,6 +55,9 @@ public:
     /// s, length of the last step.
     double dt() const { return loop_.progress.last_dt; }
 
+    /// Contact substeps of all steps.
+    std::int64_t substeps() const { return loop_.progress.substeps; }
+
     /// Condition that ended the last phase.
     const tread::run::PhaseEnd& phase_end() const { return loop_.watch.ending; }
 

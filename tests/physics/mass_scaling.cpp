@@ -98,6 +98,49 @@ TYPED_TEST(FullSizeMassScaling, RocksOfTwoSizesComeToRest)
                       damped, left);
 }
 
+/// What a second phase took.
+struct SecondPhase
+{
+    std::int64_t substeps = 0;
+    double       change   = 0; ///< J, of what scaled inertia has taken, in its second half
+};
+
+/// Rocks that fall with inertia of up to nine times, and go on for as long with that of up to `then` times.
+template<class Exec>
+SecondPhase fall_on(const Exec& exec, double then)
+{
+    constexpr double       duration = 0.2;
+    test::Experiment<Exec> run(exec, two_sizes(0.8 / 3, 9, 0, 1) + test::phase("fall", 0, duration) +
+                                         test::phase("on", 0, duration) + fmt::format("mass_scaling = {}\n", then));
+    SecondPhase            second;
+    std::int64_t           before  = 0;
+    double                 at_half = 0, at_end = 0;
+    run.run(
+        [&](double time)
+        {
+            if (time < duration * (1 + 1e-9)) { before = run.substeps(); }
+            at_end = run.simulation().ledger().energy(run.simulation().census()).mass_scaling;
+            if (time < 1.5 * duration) { at_half = at_end; }
+        });
+    second.substeps = run.substeps() - before;
+    second.change   = std::abs(at_end - at_half);
+    return second;
+}
+
+/// From the first step of a phase with a scaling of 1, substeps are those of rocks with their own inertia, and what was
+/// scaled soon is no more.
+TYPED_TEST(MassScaling, EndsWithItsPhase)
+{
+    const SecondPhase own = fall_on(this->exec(), 1), scaled = fall_on(this->exec(), 9);
+    test::report("substeps over those with scaled inertia",
+                 static_cast<double>(own.substeps) / static_cast<double>(scaled.substeps), 3, 0.9,
+                 "sqrt(mass_scaling), as of those that fall");
+    test::report("what scaled inertia takes at last, over what it takes where it goes on", own.change / scaled.change,
+                 0, 1e-3, "0.99^1000 = 4e-5 of a factor's excess is left after 1,000 substeps");
+    EXPECT_NEAR(static_cast<double>(own.substeps) / static_cast<double>(scaled.substeps), 3, 0.9);
+    EXPECT_LT(own.change, 1e-3 * scaled.change);
+}
+
 /// A ball of 2 cm that falls 5 cm onto a floor, without any loss.
 std::string ball_that_falls(double share, double mass_scaling)
 {

@@ -86,7 +86,7 @@ void refuse_substeps(BodyState<Exec>& state, const TimeStep& step, const Pace& p
     const std::string start = fmt::format(
         "t = {:.6g} s: a step of {:.4g} s would take {:.3g} contact substeps, over the {} that a step may have", time,
         step.dt, static_cast<double>(step.substeps), scene::most_substeps);
-    const double own = dem::smallest_contact_time(state.exec, state.pairs, state.view(), state.mass_scaling());
+    const double own = dem::smallest_contact_time(state.exec, state.pairs, state.view(), state.mass_scaling);
     const double all = smallest_over_ranks(state.communicator(), own), share = state.scene.time.contact_share;
     const bool   too_stiff = all > 0 && step.dt > share * all * static_cast<double>(scene::most_substeps);
     check_on_ranks(state.communicator(),

@@ -10,6 +10,7 @@
 #include "backend/instantiate.hpp"
 #include "base/errors.hpp"
 #include "kernels/mpm/pages/far_cells.hpp"
+#include "scene/phase_settings.hpp"
 #include "solver/bodies/bounding_radii.hpp"
 #include "solver/bodies/row_transfer.hpp"
 #include "solver/state_file.hpp"
@@ -175,6 +176,7 @@ BodyState<Exec>::BodyState(const Exec& backend, const scene::Scene& of_scene, co
     , gravity(of_scene.domain.gravity.data())
     , has_contact(plan.body_contact)
     , scales_inertia(plan.mass_scaling)
+    , mass_scaling{of_world.bodies.named, scene::mass_scaling_in(of_scene, 0)}
     , tables(backend, of_scene, of_world, plan)
     , bodies(backend)
     , pairs(backend)

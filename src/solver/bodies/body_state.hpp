@@ -32,8 +32,6 @@ struct BodyState
     dem::BodiesView view() { return bodies.view(); }
     std::int64_t    named() const { return world.bodies.named; }
 
-    dem::MassScaling mass_scaling() const { return {named(), scene.time.mass_scaling}; }
-
     /// Numbers of the bodies that this rank has rows for.
     const BodyNumbers& numbers() const { return ranks ? ranks->numbers() : every; }
 
@@ -81,6 +79,7 @@ struct BodyState
     double                         mass = 0;       ///< kg, of all bodies
     bool                           has_contact;    ///< whether a body may touch another or a wall
     bool                           scales_inertia; ///< Plan::mass_scaling
+    dem::MassScaling               mass_scaling;   ///< of the present phase
     BodyTables<Exec>               tables;
     dem::Bodies<Exec>              bodies;
     dem::Pairs<Exec>               pairs;

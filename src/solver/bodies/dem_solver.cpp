@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "backend/instantiate.hpp"
 #include "kernels/dem/contact/body_contact.hpp"
 #include "kernels/dem/contact/contact_limits.hpp"
 #include "kernels/dem/motion/substeps.hpp"
+#include "scene/phase_settings.hpp"
 #include "solver/bodies/body_checks.hpp"
 #include "solver/bodies/contact_records.hpp"
 #include "solver/bodies/motion_bounds.hpp"
@@ -63,6 +65,13 @@ double DemSolver<Exec>::expect_acceleration(double acceleration)
 }
 
 template<class Exec>
+bool DemSolver<Exec>::set_mass_scaling(std::size_t phase)
+{
+    const double most = scene::mass_scaling_in(state_.scene, phase);
+    return std::exchange(state_.mass_scaling.most, most) != most;
+}
+
+template<class Exec>
 void DemSolver<Exec>::set_contacts(std::size_t phase)
 {
     state_.tables.properties.assign(world::pair_properties(state_.scene, phase));
@@ -107,7 +116,7 @@ template<class Exec>
 double DemSolver<Exec>::shortest_contact()
 {
     return smallest_over_ranks(state_.communicator(), dem::smallest_contact_time(state_.exec, state_.pairs,
-                                                                                 state_.view(), state_.mass_scaling()));
+                                                                                 state_.view(), state_.mass_scaling));
 }
 
 template<class Exec>
@@ -191,7 +200,9 @@ dem::BodyStep<Exec> DemSolver<Exec>::body_step(double dt, double damping)
     dem::Motion motion{state_.gravity, damping, dt};
     if (state_.scales_inertia)
     {
-        motion.scaling = {state_.inertia_factor.data(), std::pow(state_.scene.time.contact_share / dt, 2)};
+        constexpr double any = std::numeric_limits<double>::infinity();
+        motion.scaling       = {state_.inertia_factor.data(),
+                          state_.mass_scaling.most > 1 ? std::pow(state_.scene.time.contact_share / dt, 2) : any};
     }
     return {state_.pairs,
             state_.view(),

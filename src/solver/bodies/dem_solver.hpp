@@ -106,6 +106,10 @@ public:
     void set_gravity(const Vec3<double>& gravity) { state_.gravity = gravity; }
     void set_contacts(std::size_t phase);
 
+    /// Sets the largest factor on the inertia of rocks to that of a phase of the scene; returns whether it is another
+    /// one, so that a shortest_contact() of before holds no more. From where it is 1, factors only decay.
+    bool set_mass_scaling(std::size_t phase);
+
     /// Sets the damping of the phase; no rock falls asleep where there is any.
     void set_damping(double damping) { sleep_.damping = damping; }
 

@@ -7,7 +7,7 @@
 #include "scene/resolved.hpp"
 #include "scene_file.hpp"
 
-// [[phase]] gravity and contacts: from which phase on they hold, and what is refused, and where.
+// [[phase]] gravity, contacts and mass_scaling: from which phase on they hold, and what is refused, and where.
 namespace tread::scene::test
 {
 namespace
@@ -65,11 +65,33 @@ TEST(PhaseSettings, pairs_touch_or_not_until_another_phase_sets_it)
     EXPECT_FALSE(changes_touch(load(good_scene + "[[contact]]\nbetween = [\"wheel\", \"rock\"]\ntouch = false")));
 }
 
+TEST(PhaseSettings, inertia_is_scaled_as_in_time_until_a_phase_sets_it)
+{
+    const std::string twice = with_phase("mass_scaling = 9\n[[phase]]\nname = \"after\"\nduration = 1.0");
+    const Scene set = load(twice), not_set = load(good_scene), time = load(with_phase("") + "[time]\nmass_scaling = 4");
+    const auto  last = set.phases.size() - 1;
+    EXPECT_EQ(mass_scaling_in(set, last - 2), 1);
+    EXPECT_EQ(mass_scaling_in(set, last - 1), 9);
+    EXPECT_EQ(mass_scaling_in(set, last), 9);
+    EXPECT_EQ(mass_scaling_in(time, last - 1), 4);
+    EXPECT_TRUE(scales_inertia(set));
+    EXPECT_TRUE(scales_inertia(time));
+    EXPECT_FALSE(scales_inertia(not_set));
+}
+
+TEST(PhaseSettings, inertia_scaled_in_no_phase_leaves_nothing_of_it)
+{
+    std::string       none = with_phase("") + "[time]\nmass_scaling = 4\n";
+    const std::string head = "[[phase]]\n";
+    none.insert(none.find(head) + head.size(), "mass_scaling = 1\n");
+    EXPECT_FALSE(scales_inertia(load(none)));
+}
+
 TEST(PhaseSettings, are_written_into_the_resolved_scene)
 {
-    const Scene scene = load(
-        with_phase("gravity = [1.0, 0.0, -3.0]\ncontacts = [ { between = [\"sand\", \"wheel\"], restitution = 0.1, "
-                   "touch = false } ]\n[[contact]]\nbetween = [\"rock\", \"wheel\"]\ntouch = false"));
+    const Scene scene = load(with_phase(
+        "gravity = [1.0, 0.0, -3.0]\nmass_scaling = 9\ncontacts = [ { between = [\"sand\", \"wheel\"], "
+        "restitution = 0.1, touch = false } ]\n[[contact]]\nbetween = [\"rock\", \"wheel\"]\ntouch = false"));
     EXPECT_EQ(load(resolved_toml(scene)), scene);
 }
 
@@ -118,6 +140,8 @@ const std::vector<BadSetting> bad_settings{
      "[phase.turned] contacts: [\"wheel\", \"sand\"] twice; accepted: one setting each"},
     {"friction_range", "contacts = [ { between = [\"sand\", \"wheel\"], friction = -0.1 } ]",
      "[phase.turned.contacts[0]] friction: -0.1 is out of range"},
+    {"inertia_less_than_its_own", "mass_scaling = 0.5",
+     "[phase.turned] mass_scaling: 0.5 is out of range; accepted: number >= 1 and <= 100"},
     {"no_array", "contacts = { between = [\"sand\", \"wheel\"] }", "[phase.turned] contacts: wrong type"},
 };
 std::string setting_name(const ::testing::TestParamInfo<BadSetting>& info) { return info.param.name; }
