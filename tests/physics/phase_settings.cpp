@@ -5,7 +5,7 @@
 
 #include "energy_balance.hpp"
 
-// Gravity and friction that change from one phase to the next (docs/phases.md#gravity-and-contacts).
+// Gravity and friction that change from one phase to the next (docs/phases.md#gravity-contacts-scaled-inertia).
 namespace phase_settings_test
 {
 
