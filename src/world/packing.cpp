@@ -62,9 +62,17 @@ struct Columns
     std::vector<double> top; ///< m; 0 = the floor
 };
 
-Columns columns_under(const std::vector<Stone>& stones, double edge)
+/// Edge of the columns over the rocks' mean diameter, where there are few rocks.
+constexpr double finest_columns = 1.0 / 32;
+
+/// Largest number of columns, about. With 2e7 of them the fraction of 300,000 rocks takes 29 s, with these 1.4 s, and
+/// differs by 3e-5 of itself.
+constexpr double most_columns = 1e6;
+
+Columns columns_under(const std::vector<Stone>& stones, double mean_diameter)
 {
-    Columns columns{{0, 0}, edge, {0, 0}, {}};
+    Columns columns{};
+    double  extent[2];
     for (int c = 0; c < 2; ++c)
     {
         double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -73,9 +81,11 @@ Columns columns_under(const std::vector<Stone>& stones, double edge)
             low  = std::min(low, stone.centre[c] - stone.reach());
             high = std::max(high, stone.centre[c] + stone.reach());
         }
-        columns.low[c]   = low;
-        columns.count[c] = static_cast<std::int64_t>(std::ceil((high - low) / edge));
+        columns.low[c] = low;
+        extent[c]      = high - low;
     }
+    columns.edge = std::max(finest_columns * mean_diameter, std::sqrt(extent[0] * extent[1] / most_columns));
+    for (int c = 0; c < 2; ++c) { columns.count[c] = static_cast<std::int64_t>(std::ceil(extent[c] / columns.edge)); }
     columns.top.assign(static_cast<std::size_t>(columns.count[0] * columns.count[1]), 0.0);
     return columns;
 }
@@ -114,8 +124,7 @@ double packing_fraction(const World& world, const io::BodyFields& bodies)
         solids += rock.form->unit.volume * std::pow(rock.scale, 3);
         mean_diameter += rock.scale * volume_diameter(*rock.form) / static_cast<double>(rocks.size());
     }
-    constexpr double columns_a_rock = 32;
-    Columns          columns        = columns_under(rocks, mean_diameter / columns_a_rock);
+    Columns columns = columns_under(rocks, mean_diameter);
     for (const Stone& rock : rocks) { raise(columns, rock); }
     const double below = std::accumulate(columns.top.begin(), columns.top.end(), 0.0) * columns.edge * columns.edge;
     return below > 0 ? solids / below : 0;
