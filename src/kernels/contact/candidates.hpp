@@ -54,6 +54,8 @@ struct Candidates
         , pair_first(exec, "contact pages found")
         , pair_body(exec, "contact page body")
         , pair_page(exec, "contact page")
+        , pair_box(exec, "contact cells of a page")
+        , first_cell(exec, "contact cells")
         , cell_first(exec, "contact cells found")
         , marks(exec, "contact run marks")
         , sorted_points(exec, "contact sorted points")
@@ -76,6 +78,8 @@ struct Candidates
     Array<Exec, std::int32_t>  pair_first;
     Array<Exec, std::int32_t>  pair_body;
     Array<Exec, std::int32_t>  pair_page;
+    Array<Exec, std::int32_t>  pair_box;
+    Array<Exec, std::int32_t>  first_cell;
     Array<Exec, std::int32_t>  cell_first;
     Array<Exec, std::int32_t>  marks;
     Array<Exec, std::int32_t>  sorted_points;

@@ -2,9 +2,9 @@
 
 #include "kernels/contact/candidates_kern.hpp"
 
-// Steps of find_candidates, for both backends; candidates.cpp and candidates.cu provide for_each and instantiate. Three
+// Steps of find_candidates, for both backends; candidates.cpp and candidates.cu provide for_each and instantiate. Four
 // lists, each derived from the previous one by counting, scanning and filling: (body, page of its box), (body, page
-// with points), (body, point).
+// with points), (body, cell of such a page and of its box), (body, point).
 namespace tread::contact
 {
 namespace candidate_steps
@@ -72,12 +72,37 @@ struct WritePairs
     }
 };
 
-/// Calls visit(body, point) for every candidate among the points of one cell; item i = (pair, cell of its page).
+struct CountCells
+{
+    const std::int32_t*      pair_body;
+    const std::int32_t*      pair_page;
+    std::int64_t             pairs;
+    dem::BodiesView          bodies;
+    const dem::TemplateView* templates;
+    mpm::PagesView           pages;
+    SearchReach              reach;
+    std::int32_t*            pair_box; ///< PageCells::packed of each pair
+    std::int32_t*            count;    ///< [pairs + 1]
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        count[i] = 0;
+        if (i == pairs) { return; }
+        const PageCells box = cell_box(search_body(bodies, templates, pair_body[i], reach), pages, pair_page[i], reach);
+        pair_box[i]         = box.packed();
+        count[i]            = box.cells();
+    }
+};
+
+/// Calls visit(body, point) for every candidate among the points of one cell; item i = (pair, cell of its box).
 template<class Real>
 struct Probe
 {
     const std::int32_t*      pair_body;
     const std::int32_t*      pair_page;
+    const std::int32_t*      pair_box;
+    const std::int32_t*      first_cell; ///< [pairs + 1], first item of each pair
+    std::int64_t             pairs;
     mpm::PagesView           pages;
     dem::BodiesView          bodies;
     const dem::TemplateView* templates;
@@ -89,8 +114,9 @@ struct Probe
     template<class Visit>
     TREAD_HD void operator()(std::int64_t i, Visit visit) const
     {
-        const std::int64_t  pair = i / mpm::page_cells, page = pair_page[pair];
-        const int           place = static_cast<int>(i % mpm::page_cells);
+        const std::int64_t  pair = owner_of(first_cell, pairs, i), page = pair_page[pair];
+        const std::int32_t  cell  = static_cast<std::int32_t>(i) - first_cell[pair];
+        const int           place = PageCells::unpacked(pair_box[pair]).place(cell);
         const std::int32_t* range = pages.cell_first_point + page * mpm::page_cells + place;
         if (range[0] == range[1]) { return; }
         const SearchBody body = search_body(bodies, templates, pair_body[pair], reach);
@@ -218,6 +244,19 @@ std::int64_t find_page_pairs(const Exec& exec, Candidates<Exec>& c, const mpm::P
     return pairs;
 }
 
+/// Finds the cells of each pair that its body's box overlaps; returns their number.
+template<class Exec>
+std::int64_t find_cells(const Exec& exec, Candidates<Exec>& c, std::int64_t pairs, const mpm::PagesView& pages,
+                        const dem::BodiesView& bodies, const dem::TemplateView* templates, const SearchReach& reach)
+{
+    c.pair_box.resize(pairs);
+    c.first_cell.resize(pairs + 1);
+    for_each(exec, "count contact cells", pairs + 1,
+             candidate_steps::CountCells{c.pair_body.data(), c.pair_page.data(), pairs, bodies, templates, pages, reach,
+                                         c.pair_box.data(), c.first_cell.data()});
+    return exclusive_scan(exec, c.first_cell, c.sort);
+}
+
 template<class Exec>
 void order_by_point(const Exec& exec, Candidates<Exec>& c)
 {
@@ -248,9 +287,19 @@ void find_candidates(const Exec& exec, Candidates<Exec>& c, const mpm::PointsVie
     const std::int64_t pairs = find_page_pairs(exec, c, pages, bodies, templates, reach);
     if (pairs == 0) { return; }
 
-    const std::int64_t cells = pairs * mpm::page_cells;
-    const Probe<Real>  probe{
-        c.pair_body.data(), c.pair_page.data(), pages, bodies, templates, reach, points, materials, radius};
+    const std::int64_t cells = find_cells(exec, c, pairs, pages, bodies, templates, reach);
+    const Probe<Real>  probe{c.pair_body.data(),
+                            c.pair_page.data(),
+                            c.pair_box.data(),
+                            c.first_cell.data(),
+                            pairs,
+                            pages,
+                            bodies,
+                            templates,
+                            reach,
+                            points,
+                            materials,
+                            radius};
     c.cell_first.resize(cells + 1);
     for_each(exec, "count candidates", cells + 1, CountCandidates<Real>{probe, cells, c.cell_first.data()});
     const std::int64_t found = exclusive_scan(exec, c.cell_first, c.sort);

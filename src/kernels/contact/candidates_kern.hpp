@@ -38,6 +38,33 @@ struct PageBox
     }
 };
 
+/// A box of the cells of a page, both ends included, 0 to page_edge - 1.
+struct PageCells
+{
+    mpm::Index3 low;
+    mpm::Index3 high;
+
+    TREAD_HD std::int32_t cells() const { return (high.x - low.x + 1) * (high.y - low.y + 1) * (high.z - low.z + 1); }
+
+    /// Returns the place in its page of cell `i` of the box, x fastest as places are.
+    TREAD_HD std::int32_t place(std::int32_t i) const
+    {
+        const std::int32_t nx = high.x - low.x + 1, ny = high.y - low.y + 1;
+        return low.x + i % nx + mpm::page_edge * (low.y + i / nx % ny + mpm::page_edge * (low.z + i / (nx * ny)));
+    }
+
+    TREAD_HD std::int32_t packed() const
+    {
+        return low.x | low.y << 2 | low.z << 4 | high.x << 6 | high.y << 8 | high.z << 10;
+    }
+
+    TREAD_HD static PageCells unpacked(std::int32_t box)
+    {
+        return {{box & 3, box >> 2 & 3, box >> 4 & 3}, {box >> 6 & 3, box >> 8 & 3, box >> 10}};
+    }
+};
+static_assert(mpm::page_edge == 4, "two bits a coordinate");
+
 /// Data of a body for the search.
 struct SearchBody
 {
@@ -60,15 +87,26 @@ TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::Templa
     return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], nearer + 2.0 * patch};
 }
 
-/// Returns the pages of a level whose points may be candidates of the body: those that overlap its extended
-/// axis-aligned box.
-TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, int level, const SearchReach& reach)
+/// Axis-aligned box, m, of the positions whose points may be candidates of a body.
+struct GrownBox
+{
+    Vec3<double> low;
+    Vec3<double> high;
+};
+
+TREAD_HD GrownBox grown_box(const SearchBody& body, const SearchReach& reach)
 {
     const Mat3<double> rotation = body.orientation.toRotationMatrix();
     const Vec3<double> centre   = body.position + rotation * (0.5 * body.scale * (body.shape->low + body.shape->high));
     const Vec3<double> half     = rotation.cwiseAbs() * (0.5 * body.scale * (body.shape->high - body.shape->low));
     const double       margin   = reach.largest_radius + reach.point_drift + body.approach;
+    const Vec3<double> grown    = half + Vec3<double>::Constant(margin);
+    return {centre - grown, centre + grown};
+}
 
+/// Returns the pages of a level whose points may be candidates of the body: those that overlap its grown box.
+TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, int level, const SearchReach& reach)
+{
     const mpm::Lattice lattice = mpm::level_lattice(pages, level);
     const double       shift   = lattice.stencil_shift + lattice.node_shift;
     const double       low     = level == 0 ? -(mpm::page_bias - 1) : level << mpm::level_bits;
@@ -79,8 +117,28 @@ TREAD_HD PageBox page_box(const SearchBody& body, const mpm::PagesView& pages, i
                 mpm::page_coordinate(x[1], lattice.spacing, shift, low, high),
                 mpm::page_coordinate(x[2], lattice.spacing, shift, low, high)};
     };
-    const Vec3<double> grown = half + Vec3<double>::Constant(margin);
-    return {page_at(centre - grown), page_at(centre + grown)};
+    const GrownBox box = grown_box(body, reach);
+    return {page_at(box.low), page_at(box.high)};
+}
+
+/// Returns the cells of a page whose points may be candidates of the body: those that overlap its grown box. The page
+/// is one of its page_box.
+TREAD_HD PageCells cell_box(const SearchBody& body, const mpm::PagesView& pages, std::int64_t page,
+                            const SearchReach& reach)
+{
+    const mpm::Index3  corner  = mpm::page_coordinates(pages.point_page_key[page]);
+    const mpm::Lattice lattice = mpm::level_lattice(pages, mpm::level_of(corner));
+    const double       shift   = lattice.stencil_shift + lattice.node_shift;
+    const auto         cell    = [&](double position, std::int32_t page_coordinate)
+    {
+        const double local = std::floor(position / lattice.spacing - shift) - page_coordinate * mpm::page_edge;
+        return static_cast<std::int32_t>(std::fmin(std::fmax(local, 0.0), mpm::page_edge - 1));
+    };
+    const auto cell_at = [&](const Vec3<double>& x) -> mpm::Index3 {
+        return {cell(x[0], corner.x), cell(x[1], corner.y), cell(x[2], corner.z)};
+    };
+    const GrownBox box = grown_box(body, reach);
+    return {cell_at(box.low), cell_at(box.high)};
 }
 
 /// Number of page lookups for a box: its own pages, or all pages with points if these are fewer.

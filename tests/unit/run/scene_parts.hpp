@@ -220,7 +220,9 @@ inline const Part contact_with_sand = {
      "candidate point",
      "candidate touched point",
      "candidates by point",
+     "contact cells",
      "contact cells found",
+     "contact cells of a page",
      "contact dissipated",
      "contact page",
      "contact page body",
@@ -256,7 +258,7 @@ inline const Part contact_with_sand = {
      "touched point first candidate",
      "touched points"},
     {"all contact parts",   "bodies in sand",   "bodies without sand", "candidate sort keys", "candidate sorted points",
-     "copy contact points", "count candidates", "count contact pages", "count parts",         "find contact pages",
+     "copy contact points", "count candidates", "count contact cells", "count contact pages", "count parts",         "find contact pages",
      "give back impulses",  "mark runs",        "move contact points", "point-body forces",   "recall contacts",
      "summarise contacts",  "touched points",   "write candidates",    "write contact pages", "write parts",
      "write runs"}};
