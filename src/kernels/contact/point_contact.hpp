@@ -89,7 +89,6 @@ struct PointContact
         , wrench_sums(exec, "contact wrench sums")
         , summary_sums(exec, "contact summary sums")
         , summary(exec, "contact summary")
-        , all_parts(exec, "contact parts as one run")
         , marks(exec, "contact history marks")
     {
     }
@@ -133,9 +132,8 @@ struct PointContact
 
     Array<Exec, std::int32_t>       run_of_body;  ///< of Candidates::by_body; -1 = no candidates
     Array<Exec, dem::ContactWrench> wrench_sums;  ///< one per part of a touched body's candidates
-    Array<Exec, Summary>            summary_sums; ///< likewise
+    Array<Exec, Summary>            summary_sums; ///< of chunks of the contacts
     Array<Exec, Summary>            summary;      ///< of all contacts
-    Array<Exec, std::int32_t>       all_parts;    ///< first and end of wrench_sums
     Array<Exec, std::int32_t>       marks;
 };
 

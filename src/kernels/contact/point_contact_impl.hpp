@@ -3,13 +3,16 @@
 #include "kernels/contact/point_contact_kern.hpp"
 
 // Steps of the sand-body contact, for both backends; point_contact.cpp and point_contact.cu provide for_each and
-// reduce_runs, and instantiate.
+// sum_chunks, and instantiate.
 namespace tread::contact
 {
 
+/// Contacts whose summaries are added up together first: two a thread of a GPU's block.
+constexpr std::int64_t summary_chunk = 256;
+
 /// Allocates memory for the candidates found.
 template<class Exec>
-void resize_to_candidates(const Exec& exec, PointContact<Exec>& contact)
+void resize_to_candidates(PointContact<Exec>& contact)
 {
     const auto resize = [](std::int64_t size, auto&... arrays) { (arrays.resize(size), ...); };
     resize(contact.candidates.by_point.key.size(), contact.position, contact.velocity, contact.support, contact.impulse,
@@ -18,11 +21,8 @@ void resize_to_candidates(const Exec& exec, PointContact<Exec>& contact)
     const std::int64_t parts = contact.candidates.body_parts.of_items.key.size();
     if (parts == 0) { return; }
     resize(parts + 1, contact.wrench_sums); // or two per block for the substeps of a lone body
-    resize(parts, contact.summary_sums);
+    resize(chunks_of(contact.candidates.body.size(), summary_chunk), contact.summary_sums);
     resize(1, contact.summary);
-    resize(2, contact.all_parts);
-    for_each(exec, "all contact parts", 2,
-             contact_steps::EndsOfAll{static_cast<std::int32_t>(parts), contact.all_parts.data()});
 }
 
 /// Allocates the history slots of the candidates found.
@@ -67,7 +67,7 @@ void resume_candidates(const Exec& exec, PointContact<Exec>& contact, const dem:
                        const PointBodyLaw& law)
 {
     if (contact.candidates.body.size() > 0) { order_by_point(exec, contact.candidates); }
-    resize_to_candidates(exec, contact);
+    resize_to_candidates(contact);
     make_slots(exec, contact, bodies, law);
     copy_numbers(exec, contact, bodies);
     name_runs(exec, contact, bodies.count);
@@ -100,7 +100,7 @@ void begin_step(const Exec& exec, PointContact<Exec>& contact, const mpm::Points
 {
     keep_history(exec, contact);
     find_candidates(exec, contact.candidates, points, pages, bodies, law.templates, law.pairs, law.radius, reach);
-    resize_to_candidates(exec, contact);
+    resize_to_candidates(contact);
     make_slots(exec, contact, bodies, law);
     copy_numbers(exec, contact, bodies);
     name_runs(exec, contact, bodies.count);
@@ -167,11 +167,11 @@ template<class Exec>
 const Summary* summarise(const Exec& exec, PointContact<Exec>& contact, std::int64_t named)
 {
     using namespace contact_steps;
-    const auto store = [](Array<Exec, Summary>& to) { return run_steps::StoreSum<Summary>{to.data()}; };
-    reduce_runs<Summary>(exec, "summarise contacts", contact.candidates.body_parts.of_items.view(),
-                         SummaryOf{contact.contacts(), contact.private_points(), named}, store(contact.summary_sums));
-    reduce_runs<Summary>(exec, "summarise contacts", RunsView{1, nullptr, contact.all_parts.data()},
-                         run_steps::LoadSum<Summary>{contact.summary_sums.data()}, store(contact.summary));
+    const std::int64_t chunks = contact.summary_sums.size();
+    sum_chunks(exec, "summarise contacts", contact.candidates.body.size(), summary_chunk,
+               SummaryOf{contact.contacts(), contact.private_points(), named}, contact.summary_sums.data());
+    sum_chunks(exec, "summarise contacts", chunks, chunks, SumOfChunk{contact.summary_sums.data()},
+               contact.summary.data());
     contact.dissipated.fill_zero();
     return contact.summary.data();
 }

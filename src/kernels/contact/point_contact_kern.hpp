@@ -340,15 +340,6 @@ struct WriteRecords
     }
 };
 
-/// Writes one run that contains all parts.
-struct EndsOfAll
-{
-    std::int32_t  parts;
-    std::int32_t* ends; ///< [2]
-
-    TREAD_HD void operator()(std::int64_t i) const { ends[i] = i == 0 ? 0 : parts; }
-};
-
 struct SummaryOf
 {
     ContactsView  contacts;
@@ -371,6 +362,13 @@ struct SummaryOf
         if (response.overlap > points.radius[t]) { summary.flattest = {response.gradient_length, b, id}; }
         return summary;
     }
+};
+
+struct SumOfChunk
+{
+    const Summary* sums;
+
+    TREAD_HD Summary operator()(std::int64_t chunk) const { return sums[chunk]; }
 };
 
 } // namespace contact_steps

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "backend/launch.hpp"
 #include "kernels/contact/runs.hpp"
 #include "kernels/dem/contact/body_field_kern.hpp"
@@ -7,17 +9,20 @@
 namespace tread::contact
 {
 
-/// Calls finish(r, sum over its items i of item(i)) for every run r; sums have a fixed order. Sum needs operator+ and
-/// zero().
-template<class Sum, class Item, class Finish>
-void reduce_runs(const Cpu& cpu, const char* name, const RunsView& runs, Item item, Finish finish)
+/// Computes sums[c] = sum of item(i) over the items of chunk c, `size` each of `count`; sums have a fixed order. Sum
+/// needs operator+ and zero().
+template<class Sum, class Item>
+void sum_chunks(const Cpu& cpu, const char* name, std::int64_t count, std::int64_t size, Item item, Sum* sums)
 {
-    for_each(cpu, name, runs.count,
-             [=](std::int64_t run)
+    for_each(cpu, name, chunks_of(count, size),
+             [=](std::int64_t chunk)
              {
                  Sum sum = Sum::zero();
-                 for (std::int64_t i = runs.first[run]; i < runs.first[run + 1]; ++i) { sum = sum + item(i); }
-                 finish(run, sum);
+                 for (std::int64_t i = chunk * size; i < std::min(count, (chunk + 1) * size); ++i)
+                 {
+                     sum = sum + item(i);
+                 }
+                 sums[chunk] = sum;
              });
 }
 

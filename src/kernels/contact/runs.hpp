@@ -90,6 +90,9 @@ void find_runs(const Exec& exec, const Array<Exec, std::int32_t>& keys, Array<Ex
              run_steps::WriteRuns{keys.data(), count, marks.data(), runs.key.data(), runs.first.data()});
 }
 
+/// Number of chunks of `size` items each, the last of them with fewer.
+inline std::int64_t chunks_of(std::int64_t count, std::int64_t size) { return (count + size - 1) / size; }
+
 /// Maximum number of items in a part. Long runs are summed in parts, so that a body with very many contacts does not
 /// occupy a single thread or block; on a GPU as many lanes share a part. Most rocks have fewer contacts than that.
 constexpr std::int32_t part_items = 32;
@@ -142,22 +145,6 @@ struct WriteParts
         run[p]       = r;
         first[p]     = runs.first[r] + (static_cast<std::int32_t>(p) - first_of_run[r]) * part_items;
     }
-};
-
-template<class Sum>
-struct StoreSum
-{
-    Sum* sums;
-
-    TREAD_HD void operator()(std::int64_t i, const Sum& sum) const { sums[i] = sum; }
-};
-
-template<class Sum>
-struct LoadSum
-{
-    const Sum* sums;
-
-    TREAD_HD Sum operator()(std::int64_t i) const { return sums[i]; }
 };
 
 } // namespace run_steps

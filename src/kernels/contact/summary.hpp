@@ -5,7 +5,7 @@
 
 #include "backend/vector.hpp"
 
-// Sums and extremes over contacts. Sums have a fixed order (reduce_runs); of equal extremes the first is kept.
+// Sums and extremes over contacts. Sums have a fixed order (sum_chunks); of equal extremes the first is kept.
 namespace tread::contact
 {
 
