@@ -1,6 +1,6 @@
 #include "backend/launch.hpp"
+#include "kernels/contact/contact_loops.hpp"
 #include "kernels/contact/point_contact_impl.hpp"
-#include "kernels/contact/reduce_runs.hpp"
 
 namespace tread::contact
 {

@@ -1,6 +1,6 @@
 #include "backend/launch.cuh"
+#include "kernels/contact/contact_loops.cuh"
 #include "kernels/contact/point_contact_impl.hpp"
-#include "kernels/contact/reduce_runs.cuh"
 
 namespace tread::contact
 {

@@ -170,7 +170,7 @@ const Summary* summarise(const Exec& exec, PointContact<Exec>& contact, std::int
     const std::int64_t chunks = contact.summary_sums.size();
     sum_chunks(exec, "summarise contacts", contact.candidates.body.size(), summary_chunk,
                SummaryOf{contact.contacts(), contact.private_points(), named}, contact.summary_sums.data());
-    sum_chunks(exec, "summarise contacts", chunks, chunks, SumOfChunk{contact.summary_sums.data()},
+    sum_chunks(exec, "summarise contacts", chunks, chunks, LoadSum{contact.summary_sums.data()},
                contact.summary.data());
     contact.dissipated.fill_zero();
     return contact.summary.data();

@@ -364,7 +364,7 @@ struct SummaryOf
     }
 };
 
-struct SumOfChunk
+struct LoadSum
 {
     const Summary* sums;
 

@@ -1,9 +1,9 @@
 #include "kernels/contact/substeps.hpp"
 
 #include "backend/instantiate.hpp"
+#include "kernels/contact/contact_loops.cuh"
 #include "kernels/contact/lone_body.cuh"
 #include "kernels/contact/point_contact_impl.hpp"
-#include "kernels/contact/reduce_runs.cuh"
 #include "kernels/dem/motion/substeps.cuh"
 
 namespace tread::contact

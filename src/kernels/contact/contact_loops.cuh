@@ -4,6 +4,7 @@
 #include "kernels/contact/runs.hpp"
 #include "kernels/dem/contact/warp_lanes.cuh"
 
+// Loops over contacts (contact_loops.hpp), on a GPU.
 namespace tread::contact
 {
 

@@ -6,6 +6,7 @@
 #include "kernels/contact/runs.hpp"
 #include "kernels/dem/contact/body_field_kern.hpp"
 
+// Loops over contacts, of which each backend has its own.
 namespace tread::contact
 {
 
