@@ -22,8 +22,8 @@ NAN, INF = float("nan"), float("inf")
 # What is wrong with one shows at another.
 SAID_OF = {"pairs/first_node": "pairs/"}
 
-# Columns without terrain have no height, phases of sand no packing fraction of rocks; received_files.py looks into the series.
-ALLOWED = {("surface/height", "nan"), ("run/phases", "nan at the end"), ("run/timeseries", "high")}
+# Columns without terrain have no height; received_files.py looks into the series.
+ALLOWED = {("surface/height", "nan"), ("run/timeseries", "high")}
 
 def datasets(path):
     """Kind and columns of data sets by name, of those with values."""
@@ -59,9 +59,9 @@ def resize(by):
 
 
 def changes_of(dtype, columns):
-    """Name and change of everything that a data set of this kind must not be: its last column, too, may not."""
+    """Name and change of everything that a data set of this kind must not be, in its first column and in its last."""
     if dtype.kind == "f":
-        return {"nan": spoil(NAN), "inf": spoil(INF), **({"nan at the end": spoil(NAN, columns - 1)} if columns > 1 else {})}
+        return {"nan": spoil(NAN), "inf at the end": spoil(INF, columns - 1)}
     numbers = numpy.iinfo(dtype)
     return {"high": spoil(numbers.max), **({"low": spoil(numbers.min)} if numbers.min < 0 else {})}
 

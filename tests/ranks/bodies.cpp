@@ -237,14 +237,14 @@ TYPED_TEST(BodiesOfRanks, AHeapOfRocksMigrates)
 /// The factors by which inertia is scaled are those of one rank, also of rocks that have come from others.
 TYPED_TEST(BodiesOfRanks, AHeapMigratesWithItsScaledInertia)
 {
-    test::SideBySide<TypeParam> run(this->exec(), test::load_text(with_mass_scaling(heap(300, clast(162)), 9)),
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(with_mass_scaling(heap(500, ball()), 9)),
                                     heap_size, heap_slabs(this->ranks()));
     const auto                  before = run.bodies_together().position;
     expect_as_alone(run, 150, 0.01, 1e-8);
     const auto energy = [](auto& experiment)
     { return experiment.simulation().ledger().energy(experiment.simulation().census()); };
     const solver::EnergyRow one = energy(run.alone), all = energy(run.together);
-    std::printf("%d of 300 rocks changed their rank; scaled inertia took %.3g J, on ranks %.3g, of %.3g\n",
+    std::printf("%d of 500 rocks changed their rank; scaled inertia took %.3g J, on ranks %.3g, of %.3g\n",
                 migrated(run, before, run.bodies_together().position), one.mass_scaling, all.mass_scaling,
                 one.kinetic_bodies);
     EXPECT_NEAR(one.mass_scaling, all.mass_scaling, 1e-8 * one.kinetic_bodies);
