@@ -99,6 +99,7 @@ template<class Exec>
 bool DemSolver<Exec>::renew_pairs(double dt, UnheldRows unheld)
 {
     const bool found = update_pairs(state_, lists_, dt, substeps_in(dt), unheld);
+    nodes_evaluated_ = state_.tables.law.rays == nullptr;
     if (found && row_moves() != nullptr) { reports_.follow(*row_moves()); }
     return found;
 }
@@ -151,7 +152,9 @@ bool DemSolver<Exec>::find_pairs_if_displaced(const TimeStep& step, std::int64_t
 template<class Exec>
 void DemSolver<Exec>::contact(double dt)
 {
-    dem::evaluate_contacts(substep_exec(), state_.pairs, state_.view(), state_.tables.law, dt);
+    const Exec exec = substep_exec();
+    if (!nodes_evaluated_) { dem::evaluate_nodes(exec, state_.pairs, state_.view(), state_.tables.law); }
+    dem::answer_contacts(exec, state_.pairs, state_.view(), state_.tables.law, dt);
 }
 
 template<class Exec>

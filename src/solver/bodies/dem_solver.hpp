@@ -154,8 +154,12 @@ public:
     /// asleep and wake here. Returns whether pairs were found anew.
     bool find_pairs(double dt);
 
-    /// Passes changes made through view() on to the contacts. find_pairs and command do this themselves.
-    void stage() { state_.stage(); }
+    /// Passes changes made through view() on to the contacts. command does so itself, and find_pairs where it lists anew.
+    void stage()
+    {
+        state_.stage();
+        nodes_evaluated_ = false;
+    }
 
     /// Minimum over bodies of sqrt(m / sum K), s, over contacts that are live or may begin in the step; 0 = none.
     double shortest_contact();
@@ -195,7 +199,11 @@ public:
 
     /// Data that a launch of whole substeps needs, `count` of which its caller then says to have requested.
     dem::BodyStep<Exec> body_step(double dt, double damping);
-    void                requested(std::int64_t count) { lists_.requested += count; }
+    void                requested(std::int64_t count)
+    {
+        lists_.requested += count;
+        nodes_evaluated_ = false;
+    }
 
     /// Returns how many of the substeps (of dt, s) requested since the last call were done, and counts their time. They
     /// are fewer where the list has expired; find_pairs_if_displaced is due then.
@@ -254,6 +262,7 @@ private:
     SleepSettings     sleep_;
     double            substep_       = 0;       ///< s, duration of the last substep
     bool              moved_in_sand_ = false;   ///< whether bodies were last listed for substeps with sand
+    bool              nodes_evaluated_ = false; ///< whether the list's nodes were evaluated where the bodies are now
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 
     std::optional<PrescribedMotions<Exec>> motions_; ///< only if some phase prescribes a motion

@@ -125,8 +125,7 @@ template<class Exec>
 bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps, UnheldRows unheld)
 {
     const bool valid = is_valid(state, lists, dt);
-    if (valid) { state.stage(); } // commands change bodies too
-    else { build(state, lists, dt, substeps, unheld); }
+    if (!valid) { build(state, lists, dt, substeps, unheld); }
     dem::expect_contacts(state.exec, state.pairs, state.view(), state.tables.law, state.gravity, dt, state.shared());
     if (state.ranks)
     {

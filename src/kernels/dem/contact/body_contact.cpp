@@ -1,15 +1,13 @@
 #include "backend/instantiate.hpp"
 #include "backend/launch.hpp"
 #include "kernels/dem/contact/body_contact_impl.hpp"
-#include "kernels/dem/contact/contact_nodes.hpp"
 
 namespace tread::dem
 {
 
 template<class Exec>
-void evaluate_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void answer_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    evaluate_nodes(cpu, pairs, bodies, law);
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
@@ -25,7 +23,7 @@ void evaluate_contacts(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bo
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template void evaluate_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double)
+    template void answer_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -18,10 +18,9 @@ void answer_pairs(const Gpu& gpu, const body_contact::AnswerPair<Meet>& answer)
 } // namespace
 
 template<class Exec>
-void evaluate_contacts(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void answer_contacts(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
     constexpr std::int64_t few = 50000; // too few to fill the device
-    evaluate_nodes(gpu, pairs, bodies, law);
     by_narrow_phase(law,
                     [&]<class Meet>(const Meet& meet)
                     {
@@ -35,7 +34,7 @@ void evaluate_contacts(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bo
 }
 
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
-    template void evaluate_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double)
+    template void answer_contacts(const Exec&, Pairs<Exec>&, const BodiesView&, const BodyLaw&, double)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 
