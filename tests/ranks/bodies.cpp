@@ -237,8 +237,8 @@ TYPED_TEST(BodiesOfRanks, AHeapOfRocksMigrates)
 /// The factors by which inertia is scaled are those of one rank, also of rocks that have come from others.
 TYPED_TEST(BodiesOfRanks, AHeapMigratesWithItsScaledInertia)
 {
-    test::SideBySide<TypeParam> run(this->exec(), test::load_text(with_mass_scaling(heap(500, ball()), 9)),
-                                    heap_size, heap_slabs(this->ranks()));
+    test::SideBySide<TypeParam> run(this->exec(), test::load_text(with_mass_scaling(heap(500, ball()), 9)), heap_size,
+                                    heap_slabs(this->ranks()));
     const auto                  before = run.bodies_together().position;
     expect_as_alone(run, 150, 0.01, 1e-8);
     const auto energy = [](auto& experiment)

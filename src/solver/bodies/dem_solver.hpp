@@ -154,7 +154,8 @@ public:
     /// asleep and wake here. Returns whether pairs were found anew.
     bool find_pairs(double dt);
 
-    /// Passes changes made through view() on to the contacts. command does so itself, and find_pairs where it lists anew.
+    /// Passes changes made through view() on to the contacts. command does so itself, and find_pairs where it lists
+    /// anew.
     void stage()
     {
         state_.stage();
@@ -260,8 +261,8 @@ private:
     BodyReports<Exec> reports_;
     NamedMeans<Exec>  means_;
     SleepSettings     sleep_;
-    double            substep_       = 0;       ///< s, duration of the last substep
-    bool              moved_in_sand_ = false;   ///< whether bodies were last listed for substeps with sand
+    double            substep_         = 0;     ///< s, duration of the last substep
+    bool              moved_in_sand_   = false; ///< whether bodies were last listed for substeps with sand
     bool              nodes_evaluated_ = false; ///< whether the list's nodes were evaluated where the bodies are now
     double            prescribed_acceleration_; ///< m/s2, bound on what prescribed forces cause
 

@@ -62,9 +62,9 @@ struct PairLists
 
 /// Lists pairs of bodies, and of bodies and walls, that may touch within dt (s), and what stiffness to expect of their
 /// contacts; rebuilds the list if the old one may have expired. `substeps`: number of substeps in dt; it sets how many
-/// steps a new list should remain valid. Returns whether it was rebuilt. The nodes of the list have been evaluated at the
-/// bodies' present positions then, by their distance fields. Collective.
-/// `unheld`: of bodies that leave this rank; within a step their rows must stay.
+/// steps a new list should remain valid. Returns whether it was rebuilt. The nodes of the list have been evaluated at
+/// the bodies' present positions then, by their distance fields. Collective. `unheld`: of bodies that leave this rank;
+/// within a step their rows must stay.
 template<class Exec>
 bool update_pairs(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double substeps, UnheldRows unheld);
 
