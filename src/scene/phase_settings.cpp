@@ -7,14 +7,25 @@
 
 namespace tread::scene
 {
+namespace
+{
 
-Vector3 gravity_in(const Scene& scene, std::size_t phase)
+/// The setting of the last phase up to `phase` that has one; `before` if none has.
+template<class Value>
+Value setting_in(const Scene& scene, std::size_t phase, std::optional<Value> Phase::*setting, const Value& before)
 {
     for (std::size_t p = std::min(phase + 1, scene.phases.size()); p > 0; --p)
     {
-        if (const auto& gravity = scene.phases[p - 1].gravity) { return *gravity; }
+        if (const auto& found = scene.phases[p - 1].*setting) { return *found; }
     }
-    return scene.domain.gravity;
+    return before;
+}
+
+} // namespace
+
+Vector3 gravity_in(const Scene& scene, std::size_t phase)
+{
+    return setting_in(scene, phase, &Phase::gravity, scene.domain.gravity);
 }
 
 double largest_gravity(const Scene& scene)
@@ -30,11 +41,7 @@ double largest_gravity(const Scene& scene)
 
 double mass_scaling_in(const Scene& scene, std::size_t phase)
 {
-    for (std::size_t p = std::min(phase + 1, scene.phases.size()); p > 0; --p)
-    {
-        if (const auto scaling = scene.phases[p - 1].mass_scaling) { return *scaling; }
-    }
-    return scene.time.mass_scaling;
+    return setting_in(scene, phase, &Phase::mass_scaling, scene.time.mass_scaling);
 }
 
 bool scales_inertia(const Scene& scene)

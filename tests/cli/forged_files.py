@@ -59,7 +59,7 @@ def resize(by):
 
 
 def changes_of(dtype, columns):
-    """Name and change of everything that a data set of this kind must not be, in its first column and in its last."""
+    """Name and change of everything that a data set of this kind must not be. Of numbers that are not finite, one stands in its last column."""
     if dtype.kind == "f":
         return {"nan": spoil(NAN), "inf at the end": spoil(INF, columns - 1)}
     numbers = numpy.iinfo(dtype)

@@ -127,8 +127,8 @@ SecondPhase fall_on(const Exec& exec, double then)
     return second;
 }
 
-/// From the first step of a phase with a scaling of 1, substeps are those of rocks with their own inertia, and what was
-/// scaled soon is no more.
+/// In a phase with a scaling of 1 substeps are those of rocks with their own inertia, and what was scaled soon is no
+/// more.
 TYPED_TEST(MassScaling, EndsWithItsPhase)
 {
     const SecondPhase own = fall_on(this->exec(), 1), scaled = fall_on(this->exec(), 9);

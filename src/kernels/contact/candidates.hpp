@@ -78,9 +78,9 @@ struct Candidates
     Array<Exec, std::int32_t>  pair_first;
     Array<Exec, std::int32_t>  pair_body;
     Array<Exec, std::int32_t>  pair_page;
-    Array<Exec, std::int32_t>  pair_box;
-    Array<Exec, std::int32_t>  first_cell;
-    Array<Exec, std::int32_t>  cell_first;
+    Array<Exec, std::int32_t>  pair_box;   ///< PageCells of each pair of body and page, packed
+    Array<Exec, std::int32_t>  first_cell; ///< of each such pair, and their end
+    Array<Exec, std::int32_t>  cell_first; ///< first candidate of each cell, and their end
     Array<Exec, std::int32_t>  marks;
     Array<Exec, std::int32_t>  sorted_points;
     Array<Exec, std::uint64_t> sort_keys;

@@ -90,7 +90,7 @@ void find_runs(const Exec& exec, const Array<Exec, std::int32_t>& keys, Array<Ex
              run_steps::WriteRuns{keys.data(), count, marks.data(), runs.key.data(), runs.first.data()});
 }
 
-/// Number of chunks of `size` items each, the last of them with fewer.
+/// Number of chunks of `size` items each, of which the last may have fewer.
 inline std::int64_t chunks_of(std::int64_t count, std::int64_t size) { return (count + size - 1) / size; }
 
 /// Maximum number of items in a part. Long runs are summed in parts, so that a body with very many contacts does not

@@ -208,5 +208,13 @@ TEST(Packing, FractionUnderTheVisibleSurface)
     EXPECT_NEAR(two, 8.0 / 11.0, 0.016);
 }
 
+/// 1,600 balls beside each other have more columns of 1/32 than a million: fewer and wider ones find the same.
+TEST(Packing, FractionOfABedWiderThanAMillionColumns)
+{
+    const World world = build_world(
+        test::load_text(text(drawn("ball", 1600, "[[0.0, 0.0, 0.0], [8.0, 8.0, 0.1001]]"), 2700, "[8.0, 8.0, 0.4]")));
+    EXPECT_NEAR(packing_fraction(world, fields_of(world)), 0.8, 0.016);
+}
+
 } // namespace
 } // namespace tread::world
