@@ -86,7 +86,7 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
         ++lists.partition_version;
         agree_on_sleepers(state);
     }
-    dem::list_pairs(exec, pairs, state.view(), law);
+    dem::list_pairs(exec, pairs, state.view(), law, dt);
     dem::mark_places(exec, lists.displacements, state.view());
     lists.listed = true;
 }

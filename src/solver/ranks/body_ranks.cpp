@@ -201,7 +201,6 @@ void BodyRanks<Exec>::move_rows(const RowArrays<Exec>& arrays, RowChange change)
     if (arrays.inertia_factor != nullptr) { take(*arrays.inertia_factor); }
     take(borders_.clear);
     contact::keep_clearances(exec_, borders_, moves.come, std::vector<contact::Clearance>(moves.come.size()));
-    arrays.pairs.displacement.search_radius.resize(moves.from.size());
     arrays.bodies.number.assign(numbers().all());
     dem::renumber_records(exec_, arrays.pairs, moves.to, moves.from.size());
     if (arrays.pairs.sleep.wanted) { move_sleepers(arrays, moves); }

@@ -68,7 +68,7 @@ protected:
 
     std::int64_t searches() const
     {
-        const auto found = this->counters.launches().find("body search radii");
+        const auto found = this->counters.launches().find("allowed displacements");
         return found == this->counters.launches().end() ? 0 : found->second;
     }
 

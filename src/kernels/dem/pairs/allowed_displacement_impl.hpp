@@ -105,7 +105,6 @@ struct WriteAllowed
 {
     BodiesView          bodies;
     const TemplateView* templates;
-    const std::int32_t* is_large;
     double              dt;
     double              substeps;
     const double*       speed;
@@ -113,31 +112,14 @@ struct WriteAllowed
     const double*       sum; ///< sum of `per_step`, of all ranks
     double              all; ///< number of bodies of all ranks
     double*             allowed;
-    double*             search_radius;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
         const double radius = bounding_radius(bodies, templates, b);
         const double least  = search_displacement(radius, speed[b], speed[b], dt).least;
         const double steps  = steps_to_last(*sum / all, substeps);
-        allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most_per_step));
-        search_radius[b]    = is_large[b] != 0 ? 0.0 : radius + allowed[b];
-    }
-};
-
-/// Recomputes the search radius of bodies that are here, some of which have just come.
-struct UpdateSearchRadius
-{
-    BodiesView          bodies;
-    const TemplateView* templates;
-    const std::int32_t* is_large;
-    const double*       allowed;
-    double*             search_radius;
-
-    TREAD_HD void operator()(std::int64_t b) const
-    {
-        const bool small = bodies.is_here(b) && is_large[b] == 0;
-        search_radius[b] = small ? bounding_radius(bodies, templates, b) + allowed[b] : 0.0;
+        const double most   = bodies.is_asleep(b) ? most_in_cell : most_additional;
+        allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most));
     }
 };
 
@@ -153,20 +135,9 @@ template<class Exec>
 void write_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     pairs.displacement.allowed.resize(bodies.count);
-    pairs.displacement.search_radius.resize(bodies.count);
     pairs.displacement.speed.resize(bodies.count);
     pairs.displacement.per_step.resize(bodies.count);
     for_each(exec, "body speeds", bodies.count, WriteSpeed{bodies, law.templates, pairs.displacement.speed.data()});
-}
-
-/// Recomputes search radii on several ranks: new ghosts receive their allowed displacement from their owners.
-template<class Exec>
-void update_search_radii(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
-{
-    if (bodies.role == nullptr) { return; }
-    for_each(exec, "search radii of bodies here", bodies.count,
-             UpdateSearchRadius{bodies, law.templates, pairs.sizes.is_large.data(), pairs.displacement.allowed.data(),
-                                pairs.displacement.search_radius.data()});
 }
 
 } // namespace pair_steps
@@ -200,11 +171,10 @@ template<class Exec>
 void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
                         double substeps, std::int64_t all)
 {
-    for_each(exec, "body search radii", bodies.count,
-             pair_steps::WriteAllowed{bodies, law.templates, pairs.sizes.is_large.data(), dt, substeps,
-                                      pairs.displacement.speed.data(), pairs.displacement.per_step.data(),
-                                      pairs.measure.data(), static_cast<double>(all), pairs.displacement.allowed.data(),
-                                      pairs.displacement.search_radius.data()});
+    for_each(exec, "allowed displacements", bodies.count,
+             pair_steps::WriteAllowed{bodies, law.templates, dt, substeps, pairs.displacement.speed.data(),
+                                      pairs.displacement.per_step.data(), pairs.measure.data(),
+                                      static_cast<double>(all), pairs.displacement.allowed.data()});
 }
 
 } // namespace tread::dem

@@ -9,6 +9,25 @@
 namespace tread::dem::pair_steps
 {
 
+/// Computes the cell_radius of bodies in the grid, those that have just come from other ranks among them.
+struct WriteCellRadius
+{
+    BodiesView          bodies;
+    const TemplateView* templates;
+    const std::int32_t* is_large;
+    double              dt;
+    const double*       allowed;
+    double*             cell_radius;
+
+    TREAD_HD void operator()(std::int64_t b) const
+    {
+        cell_radius[b] = 0;
+        if (!bodies.is_here(b) || is_large[b] != 0) { return; }
+        const double radius = bounding_radius(bodies, templates, b), speed = speed_of(bodies, b, radius);
+        cell_radius[b] = dem::cell_radius(radius, search_displacement(radius, speed, speed, dt), allowed[b]);
+    }
+};
+
 struct WriteCell
 {
     BodiesView          bodies;
@@ -83,11 +102,16 @@ struct WritePairs
     }
 };
 
-/// Sorts the bodies into the cells of a grid as wide as the widest pair; returns the cell width.
+/// Sorts the bodies into the cells of a grid as wide as the widest pair of bodies that are not wide; returns the cell
+/// width.
 template<class Exec>
-double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies)
+double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
-    largest_of_rows(exec, pairs.displacement.search_radius.data(), bodies.count, 1, pairs.measure.data());
+    pairs.search.cell_radius.resize(bodies.count);
+    for_each(exec, "body cell radii", bodies.count,
+             WriteCellRadius{bodies, law.templates, pairs.sizes.is_large.data(), dt, pairs.displacement.allowed.data(),
+                             pairs.search.cell_radius.data()});
+    largest_of_rows(exec, pairs.search.cell_radius.data(), bodies.count, 1, pairs.measure.data());
     const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
 
     pairs.search.cell_key.resize(bodies.count);

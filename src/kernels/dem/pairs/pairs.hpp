@@ -159,16 +159,14 @@ struct AllowedDisplacement
 {
     explicit AllowedDisplacement(const Exec& exec)
         : allowed(exec, "body allowed displacement")
-        , search_radius(exec, "body search radii")
         , speed(exec, "body speeds")
         , per_step(exec, "body displacement a step more")
     {
     }
 
-    Array<Exec, double> allowed;       ///< m, until the pairs are found again
-    Array<Exec, double> search_radius; ///< m, bounding radius plus `allowed`; 0 = not in the cell grid
-    Array<Exec, double> speed;         ///< m/s, maximum over each body's points at the start of the search
-    Array<Exec, double> per_step;      ///< bounding radii, of bodies here: extra Verlet skin for one further step
+    Array<Exec, double> allowed;  ///< m, until the pairs are found again
+    Array<Exec, double> speed;    ///< m/s, maximum over each body's points at the start of the search
+    Array<Exec, double> per_step; ///< bounding radii, of bodies here: extra Verlet skin for one further step
 };
 
 /// The nodes of a cluster that may enter the other body of a pair.
@@ -190,7 +188,8 @@ template<class Exec>
 struct PairSearchScratch
 {
     explicit PairSearchScratch(const Exec& exec)
-        : cell_key(exec, "body cells")
+        : cell_radius(exec, "body cell radii")
+        , cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
         , found(exec, "pairs found")
         , accepted(exec, "pairs accepted")
@@ -200,7 +199,8 @@ struct PairSearchScratch
     {
     }
 
-    Array<Exec, std::uint64_t> cell_key; ///< ascending
+    Array<Exec, double>        cell_radius; ///< m; 0 = not in the cell grid
+    Array<Exec, std::uint64_t> cell_key;    ///< ascending
     Array<Exec, std::int32_t>  cell_body;
     Array<Exec, std::int32_t>  found;
     Array<Exec, std::uint32_t> accepted; ///< per body and part: the candidates found near, a bit each
@@ -343,7 +343,7 @@ void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& 
 
 /// Last part: lists the pairs that this rank evaluates, except those of two sleepers (sleep/sleep.hpp).
 template<class Exec>
-void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
 
 /// Rebuilds everything that list_pairs derives, from a loaded list (pairs.key, patch, rolling, displacement.allowed,
 /// nodes.first and node, patches.place and several). Overlaps start as for a new list.

@@ -340,16 +340,15 @@ void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 }
 
 template<class Exec>
-void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
 {
     using namespace pair_steps;
     stage_bodies(exec, pairs, bodies);
-    update_search_radii(exec, pairs, bodies, law);
     release_memory(pairs.of_body.by_second);
-    const double cell_size = fill_cells(exec, pairs, bodies);
+    const double cell_size = fill_cells(exec, pairs, bodies, law, dt);
     if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
     search(exec, pairs, bodies, law, cell_size);
-    release_memory(pairs.displacement.search_radius, pairs.displacement.speed, pairs.displacement.per_step,
+    release_memory(pairs.search.cell_radius, pairs.displacement.speed, pairs.displacement.per_step,
                    pairs.search.cell_key, pairs.search.cell_body, pairs.search.found, pairs.search.accepted);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
@@ -368,7 +367,7 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     begin_list(exec, pairs, bodies, law);
     request_displacement(exec, pairs, bodies, law, dt, {});
     allow_displacement(exec, pairs, bodies, law, dt, substeps, bodies.count);
-    list_pairs(exec, pairs, bodies, law);
+    list_pairs(exec, pairs, bodies, law, dt);
 }
 
 } // namespace tread::dem
