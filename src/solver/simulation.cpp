@@ -58,7 +58,7 @@ Simulation<Exec, Real>::Simulation(const Exec& exec, const scene::Scene& scene, 
     , gravity_(vector(scene.domain.gravity))
 {
     if (decomposition != nullptr) { require_plan_of_ranks(plan); }
-    measuring_.pace.largest_speed = speed_at_start(scene);
+    measuring_.pace.largest_speed = measuring_.pace.sand_speed = speed_at_start(scene);
     if (decomposition != nullptr) { balance_.emplace(*decomposition, scene.balance); }
     if (plan.sand)
     {
@@ -220,8 +220,8 @@ void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
     if (!coupling_) { return; }
     const auto find = [&]
     {
-        coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), layout_version(), span,
-                                   measuring_.pace.largest_speed);
+        coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), rigid_->listed(), layout_version(),
+                                   {span, measuring_.pace.largest_speed, measuring_.pace.sand_speed});
     };
     clock.run(exec_, stage::candidates, find);
 }
@@ -274,6 +274,7 @@ void Simulation<Exec, Real>::measure()
     const SandReport  sand  = sand_ ? sand_->report() : SandReport{};
     const RigidReport rigid = rigid_ ? rigid_->report(last_.time) : RigidReport{};
     if (guard_) { guard_->check(sand, last_.step, last_.time); }
+    pace.sand_speed    = sand.largest_speed;
     pace.largest_speed = std::max(sand.largest_speed, rigid.largest_speed);
     pace.overlap       = rigid.overlap;
     if (scene_.time.substeps) { require_stable_substep(last_, pace); }

@@ -13,6 +13,7 @@ namespace tread::solver
 struct Pace
 {
     double largest_speed    = 0; ///< m/s, of points and bodies
+    double sand_speed       = 0; ///< m/s, largest of a point
     double stiffest_point   = 0; ///< 1/s2, k/m_p of the stiffest live sand-body contact
     double shortest_contact = 0; ///< s, min over bodies of sqrt(m / sum of K); 0 = no body contact
     double overlap          = 0; ///< largest overlap of bodies over radius

@@ -7,6 +7,7 @@
 #include "kernels/contact/point_body_kern.hpp"
 #include "kernels/contact/runs.hpp"
 #include "kernels/dem/bodies.hpp"
+#include "kernels/dem/pairs/displacement_limit.hpp"
 #include "kernels/dem/templates.hpp"
 #include "kernels/mpm/pages/pages.hpp"
 #include "kernels/mpm/points.hpp"
@@ -25,6 +26,8 @@ struct SearchReach
     double largest_radius; ///< m, maximum radius of the points
     double sampled_below;  ///< m, as in PointBodyLaw
     double skin;           ///< m, Verlet skin: twice the least approach of body and point that the list allows
+
+    dem::ListedPlaces listed = {}; ///< bodies may use what this allows them, too
 };
 
 /// View of the (body, point) pairs, ordered by body; within a body by page and memory order.
@@ -88,8 +91,9 @@ struct Candidates
 
 /// Finds every (body, point) pair that can come into contact within the step. A pair is kept if the point lies in the
 /// body's bounding box and its signed distance is below a bound. Both are extended by r_p, by the skin (or by twice the
-/// possible displacement of body and point if that is larger), and by the extent of the point's samples: the slope of
-/// the trilinear interpolant of a distance is at most sqrt(3). Pairs of materials that do not touch have no candidates.
+/// possible displacement of body and point if that is larger), and by twice what the list of pairs allows the body and
+/// the extent of the point's samples: the slope of the trilinear interpolant of a distance is at most sqrt(3). Pairs of
+/// materials that do not touch have no candidates.
 template<class Exec, class Real>
 void find_candidates(const Exec& exec, Candidates<Exec>& candidates, const mpm::PointsView<Real>& points,
                      const mpm::PagesView& pages, const dem::BodiesView& bodies, const dem::TemplateView* templates,

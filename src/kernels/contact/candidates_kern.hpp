@@ -6,6 +6,7 @@
 #include "kernels/contact/candidates.hpp"
 #include "kernels/contact/samples_kern.hpp"
 #include "kernels/dem/contact/sdf_kern.hpp"
+#include "kernels/dem/pairs/displacement_kern.hpp"
 #include "kernels/mpm/grid/levels.hpp"
 #include "kernels/mpm/pages/page_lattice.hpp"
 
@@ -72,7 +73,7 @@ struct SearchBody
     double                   scale;
     Vec3<double>             position;
     Quat                     orientation;
-    double approach; ///< m, twice the possible one in the step, or the skin, plus twice the samples' extent
+    double approach; ///< m, twice the possible one in the step, or the skin, plus what find_candidates adds twice
 };
 
 TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::TemplateView* templates, std::int64_t b,
@@ -84,7 +85,8 @@ TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::Templa
     const bool   sampled = takes_samples(*shape, bodies.scale[b], reach.sampled_below);
     const double patch   = sampled ? patch_reach * reach.largest_radius : 0.0;
     const double nearer  = std::fmax(2.0 * reach.dt * speed, reach.skin);
-    return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], nearer + 2.0 * patch};
+    const double listed  = dem::displacement_to_come(bodies, b, reach.listed, radius);
+    return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], nearer + 2.0 * (listed + patch)};
 }
 
 /// Axis-aligned box, m, of the positions whose points may be candidates of a body.

@@ -323,7 +323,7 @@ template<class Exec>
 void DemSolver<Exec>::transfer(StateFile& file)
 {
     state_.transfer(file);
-    file.numbers("bodies/steps", lists_.partition_version, lists_.checked_within_step, commands_.largest_speed,
+    file.numbers("bodies/steps", lists_.version, lists_.checked_within_step, commands_.largest_speed,
                  reports_.rebuilt_overlap, means_.time, substep_, commands_.totals.work);
     commands_.transfer(file);
     means_.transfer(file);

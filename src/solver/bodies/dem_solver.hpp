@@ -82,8 +82,15 @@ public:
     /// Name for messages: that of a named body, or "rock 17".
     std::string name(std::int64_t number) const { return state_.name_of_number(number); }
 
-    /// Partition version: the bodies on this rank stay the same while it is unchanged. 0 on one rank.
-    std::int64_t partition_version() const { return lists_.partition_version; }
+    /// Counts the lists of pairs: the bodies on this rank stay the same while it is unchanged.
+    std::int64_t list_version() const { return lists_.version; }
+
+    /// What the present list allows each body; nothing where no list is kept.
+    dem::ListedPlaces listed() const
+    {
+        return state_.has_contact ? lists_.displacements.listed(state_.pairs.displacement.allowed.data())
+                                  : dem::ListedPlaces{};
+    }
 
     /// Predicted work of the bodies that this rank owns, in points, on several ranks; add_loads adds it to their
     /// pages.

@@ -83,12 +83,12 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     if (state.ranks)
     {
         state.assign_owners(unheld);
-        ++lists.partition_version;
         agree_on_sleepers(state);
     }
     dem::list_pairs(exec, pairs, state.view(), law, dt);
     dem::mark_places(exec, lists.displacements, state.view());
     lists.listed = true;
+    ++lists.version;
 }
 
 /// Accepts, for each pair, nodes of its bodies: i of the first, ~i of the second. `shape`: of each row's body. `first`:
@@ -187,9 +187,7 @@ template<class Exec>
 dem::DisplacementLimit PairLists<Exec>::limit(BodyState<Exec>& state)
 {
     if (!checked_within_step) { return {}; }
-    return {displacements.position.data(),
-            displacements.orientation.data(),
-            state.pairs.displacement.allowed.data(),
+    return {displacements.listed(state.pairs.displacement.allowed.data()),
             state.tables.law.templates,
             substep_dt,
             static_cast<std::int32_t>(batch),

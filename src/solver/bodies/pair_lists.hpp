@@ -48,7 +48,7 @@ struct PairLists
     dem::DisplacementTracker<Exec> displacements;
     bool                           listed              = false; ///< whether pairs were found
     bool                           checked_within_step = false; ///< the substeps of a step look ahead, too
-    std::int64_t                   partition_version   = 0;     ///< counts assignments of bodies to ranks
+    std::int64_t                   version             = 0;     ///< counts lists
 
     bool                      expired    = false; ///< the substeps have ended with the last that the list serves
     std::int32_t              last       = 0;     ///< DisplacementLimit::last as it was read last

@@ -25,6 +25,14 @@ struct ContactPartners
     std::size_t materials;
 };
 
+/// The steps until find_candidates is called next.
+struct CandidateSpan
+{
+    double time;       ///< s
+    double speed;      ///< m/s: no point or body is faster now, nor will exceed twice that
+    double sand_speed; ///< m/s: no point is faster now
+};
+
 /// Bytes of a contact that sleeps, and of its copy while contacts are merged.
 inline constexpr std::int64_t sleeping_contact_bytes =
     2 * (sizeof(std::uint64_t) + sizeof(contact::Tangential) + sizeof(contact::HeldSand) + sizeof(std::int32_t));
@@ -42,11 +50,12 @@ public:
     /// destination rank, ascending.
     void send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out);
 
-    /// Step 3. Finds candidates for the next steps, `span` (s) in all, if the last ones may have expired. `version`:
-    /// layout version of points and bodies. No point or body is faster than `speed` (m/s) now, nor will exceed twice
-    /// that.
+    /// Step 3. Finds candidates for the next steps if the last ones may have expired: if something has moved in memory
+    /// (`version`: layout version of points and bodies, another one with each list of pairs), or used up the skin:
+    /// points, and bodies that no list bounds.
     void find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
-                         const dem::BodiesView& bodies, std::int64_t version, double span, double speed);
+                         const dem::BodiesView& bodies, const dem::ListedPlaces& listed, std::int64_t version,
+                         const CandidateSpan& next);
 
     /// Has the next find_candidates find them anew, as where other pairs touch from now on.
     void forget_candidates() { version_ = 0; }
@@ -144,7 +153,8 @@ private:
     contact::PointBodyLaw                 law_;
     double                                largest_radius_;
     double                                skin_;            ///< m
-    double                                used_    = 0;     ///< m, part of the skin that is used up since the search
+    double                                used_    = 0;     ///< m, part of the skin used up before the last span
+    double                                span_    = 0;     ///< s, CandidateSpan::time of the last call
     std::int64_t                          version_ = 0;     ///< layout version at the search; 0 = none yet
     bool                                  begun_   = false; ///< the search has begun the step
     std::int64_t                          named_; ///< named bodies come first; their contacts are counted apart

@@ -26,6 +26,7 @@ void transfer(StateFile& file, Measuring& measuring, LastStep& last, double& dam
 {
     Pace& pace = measuring.pace;
     file.numbers("simulation/pace", accept::number(pace.largest_speed, 0, largest_speed),
+                 accept::number(pace.sand_speed, 0, largest_speed),
                  accept::number(pace.stiffest_point, 0, accept::largest),
                  accept::number(pace.shortest_contact, 0, accept::largest), pace.overlap);
     measuring.extremes.transfer(file);

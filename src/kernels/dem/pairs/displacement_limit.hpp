@@ -8,15 +8,21 @@
 namespace tread::dem
 {
 
+/// Places of the bodies when their pairs were found, and how far they may move until that is done again.
+struct ListedPlaces
+{
+    const Vec3<double>* position    = nullptr; ///< m
+    const Quat*         orientation = nullptr;
+    const double*       allowed     = nullptr; ///< m, of any point of the body; null: there is no list
+};
+
 /// How far bodies may move before pairs are found again. After every `batch` substeps of a step those that move look
 /// two batches ahead; a body that may be too far by then leaves one more batch to the list
 /// (largest_displacement_ahead).
 struct DisplacementLimit
 {
-    const Vec3<double>* position    = nullptr; ///< m, at the search
-    const Quat*         orientation = nullptr; ///< at the search
-    const double*       allowed     = nullptr; ///< m, of any point of the body; null: nobody looks
-    const TemplateView* templates   = nullptr;
+    ListedPlaces        listed; ///< without `allowed` nobody looks
+    const TemplateView* templates = nullptr;
     double              dt          = 0;       ///< s, of a substep
     std::int32_t        batch       = 1;       ///< substeps
     std::int32_t        substeps    = 0;       ///< of the step

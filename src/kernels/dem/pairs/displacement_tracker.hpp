@@ -2,6 +2,7 @@
 
 #include "backend/array.hpp"
 #include "kernels/dem/bodies.hpp"
+#include "kernels/dem/pairs/displacement_limit.hpp"
 #include "kernels/dem/templates.hpp"
 
 // Checks that the list of pairs is still valid: a body that is hit within a step may be displaced further than the
@@ -19,6 +20,9 @@ struct DisplacementTracker
         , share(exec, "body displacement shares")
     {
     }
+
+    /// `allowed`: m, per body.
+    ListedPlaces listed(const double* allowed) const { return {position.data(), orientation.data(), allowed}; }
 
     Array<Exec, Vec3<double>> position;
     Array<Exec, Quat>         orientation;

@@ -16,16 +16,14 @@ struct Measure
 {
     BodiesView          bodies;
     const TemplateView* templates;
-    const Vec3<double>* position;
-    const Quat*         orientation;
-    const double*       allowed; ///< m, per body
+    ListedPlaces        listed;
     double*             share;
 
     TREAD_HD double radius(std::int64_t b) const { return bounding_radius(bodies, templates, b); }
 
     TREAD_HD double moved(std::int64_t b) const
     {
-        return displacement_since(bodies, b, position[b], orientation[b], radius(b));
+        return displacement_since(bodies, b, listed, radius(b));
     }
 
     TREAD_HD void keep(std::int64_t b, double way) const
@@ -35,7 +33,7 @@ struct Measure
             share[b] = 0;
             return;
         }
-        const double used = way / allowed[b];
+        const double used = way / listed.allowed[b];
         share[b]          = used >= 0 ? used : std::numeric_limits<double>::infinity();
     }
 
@@ -58,7 +56,7 @@ Measure measure(DisplacementTracker<Exec>& tracker, const BodiesView& bodies, co
                 const double* allowed)
 {
     tracker.share.resize(bodies.count + 1);
-    return {bodies, templates, tracker.position.data(), tracker.orientation.data(), allowed, tracker.share.data()};
+    return {bodies, templates, tracker.listed(allowed), tracker.share.data()};
 }
 
 template<class Exec, class Item>
