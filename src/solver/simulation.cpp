@@ -220,7 +220,8 @@ void Simulation<Exec, Real>::list_contacts(double span, StageClock& clock)
     if (!coupling_) { return; }
     const auto find = [&]
     {
-        coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(), rigid_->listed(), layout_version(),
+        coupling_->find_candidates(sand_->view(), sand_->pages(), rigid_->view(),
+                                   {rigid_->list_version(), rigid_->listed()}, layout_version(),
                                    {span, measuring_.pace.largest_speed, measuring_.pace.sand_speed});
     };
     clock.run(exec_, stage::candidates, find);

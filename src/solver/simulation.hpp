@@ -183,7 +183,7 @@ private:
     /// Layout version: cached indices stay valid while this is unchanged.
     std::int64_t layout_version() const
     {
-        return (sand_ ? sand_->reorder_count() : 0) + (rigid_ ? rigid_->list_version() : 0);
+        return (sand_ ? sand_->reorder_count() : 0) + (rigid_ ? rigid_->partition_version() : 0);
     }
 
     /// Has rocks and their contacts follow the sand that sleeps; empty where rocks or sand do not.

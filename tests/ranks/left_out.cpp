@@ -135,7 +135,7 @@ TEST(LeftOutOnRanks, ASearchThatChangesNoHolderExchangesNoBodies)
     rigid.command(std::vector<solver::BodyCommand>(2));
     rigid.find_pairs(dt);
     EXPECT_EQ(rigid.shares(), test::world().rank() < 2);
-    const std::int64_t first = rigid.list_version();
+    const std::int64_t first = rigid.partition_version();
     called().clear();
     for (int step = 0; step < 300; ++step)
     {
@@ -143,7 +143,7 @@ TEST(LeftOutOnRanks, ASearchThatChangesNoHolderExchangesNoBodies)
         rigid.take_done(dt);
         rigid.find_pairs(dt);
     }
-    const std::int64_t searches = rigid.list_version() - first;
+    const std::int64_t searches = rigid.partition_version() - first;
     std::printf("%d searches in 300 steps\n", static_cast<int>(searches));
     EXPECT_GT(searches, 5);
     EXPECT_FALSE(called().contains("Alltoall") || called().contains("Alltoallv"));

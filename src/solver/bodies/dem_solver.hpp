@@ -82,8 +82,11 @@ public:
     /// Name for messages: that of a named body, or "rock 17".
     std::string name(std::int64_t number) const { return state_.name_of_number(number); }
 
-    /// Counts the lists of pairs: the bodies on this rank stay the same while it is unchanged.
+    /// Counts the lists of pairs.
     std::int64_t list_version() const { return lists_.version; }
+
+    /// Partition version: the bodies on this rank stay the same while it is unchanged. 0 on one rank.
+    std::int64_t partition_version() const { return state_.ranks ? lists_.version : 0; }
 
     /// What the present list allows each body; nothing where no list is kept.
     dem::ListedPlaces listed() const

@@ -1,5 +1,6 @@
 #include "solver/coupling/sand_body_coupling.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -62,20 +63,26 @@ SandBodyCoupling<Exec, Real>::SandBodyCoupling(const Exec& exec, const scene::Sc
 
 template<class Exec, class Real>
 void SandBodyCoupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
-                                                   const dem::BodiesView& bodies, const dem::ListedPlaces& listed,
+                                                   const dem::BodiesView& bodies, const BodyList& list,
                                                    std::int64_t version, const CandidateSpan& next)
 {
-    // The skin is twice the approach. What moved in the last span is known only now: sand may have been hit in it.
-    const bool   bounded = listed.allowed != nullptr;
-    const double nearer  = 2 * next.time * 2 * next.speed;
-    used_ += std::exchange(span_, next.time) * (bounded ? 2 * next.sand_speed : 2 * 2 * next.speed);
-    if (version == version_ && used_ + nearer <= skin_) { return; }
-    const double drift = mpm::quadratic_cell_slack * pages.spacing;
-    contact::begin_step(exec_, contact_, points, pages, bodies, law_,
-                        {next.time, next.speed, drift, largest_radius_, law_.sampled_below, skin_, listed});
-    version_ = version;
-    used_    = 0;
-    begun_   = true;
+    // What sand moved in the last span is known only now: a body may have hit it. The skin is twice the approach.
+    used_by_sand_ += std::exchange(span_, next.time) * 2 * next.sand_speed;
+    const double nearer  = 2 * next.time * 2 * next.speed; // a body and a point, each at up to twice the speed
+    const bool   bounded = list.places.allowed != nullptr && list.version == list_;
+    const double used    = bounded ? std::min(used_, used_by_sand_) : used_;
+    if (version != version_ || used + nearer > skin_)
+    {
+        const double drift = mpm::quadratic_cell_slack * pages.spacing;
+        contact::begin_step(exec_, contact_, points, pages, bodies, law_,
+                            {next.time, next.speed, drift, largest_radius_, law_.sampled_below, skin_, list.places});
+        version_      = version;
+        list_         = list.version;
+        used_         = 0;
+        used_by_sand_ = 0;
+        begun_        = true;
+    }
+    used_ += nearer;
 }
 
 template<class Exec, class Real>

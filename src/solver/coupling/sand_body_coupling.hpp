@@ -25,6 +25,13 @@ struct ContactPartners
     std::size_t materials;
 };
 
+/// The present list of pairs of bodies.
+struct BodyList
+{
+    std::int64_t      version; ///< another one for each list
+    dem::ListedPlaces places;  ///< nothing where no list is kept
+};
+
 /// The steps until find_candidates is called next.
 struct CandidateSpan
 {
@@ -51,10 +58,10 @@ public:
     void send_records_after(const std::vector<std::vector<std::uint32_t>>& migrated_out);
 
     /// Step 3. Finds candidates for the next steps if the last ones may have expired: if something has moved in memory
-    /// (`version`: layout version of points and bodies, another one with each list of pairs), or used up the skin:
-    /// points, and bodies that no list bounds.
+    /// (`version`: layout version of points and bodies), or if the skin is used up: by points and bodies, or by points
+    /// alone while the list of pairs of the search bounds the bodies.
     void find_candidates(const mpm::PointsView<Real>& points, const mpm::PagesView& pages,
-                         const dem::BodiesView& bodies, const dem::ListedPlaces& listed, std::int64_t version,
+                         const dem::BodiesView& bodies, const BodyList& list, std::int64_t version,
                          const CandidateSpan& next);
 
     /// Has the next find_candidates find them anew, as where other pairs touch from now on.
@@ -152,11 +159,13 @@ private:
     double                                energy_asleep_ = 0; ///< J, elastic, of sleeping contacts of all ranks
     contact::PointBodyLaw                 law_;
     double                                largest_radius_;
-    double                                skin_;            ///< m
-    double                                used_    = 0;     ///< m, part of the skin used up before the last span
-    double                                span_    = 0;     ///< s, CandidateSpan::time of the last call
-    std::int64_t                          version_ = 0;     ///< layout version at the search; 0 = none yet
-    bool                                  begun_   = false; ///< the search has begun the step
+    double                                skin_;             ///< m
+    double                                used_         = 0; ///< m, part of the skin that is used up since the search
+    double                                used_by_sand_ = 0; ///< m, likewise, before the last span, by points alone
+    double                                span_         = 0; ///< s, CandidateSpan::time of the last call
+    std::int64_t                          list_         = 0; ///< BodyList::version at the search
+    std::int64_t                          version_      = 0; ///< layout version at the search; 0 = none yet
+    bool                                  begun_        = false; ///< the search has begun the step
     std::int64_t                          named_; ///< named bodies come first; their contacts are counted apart
     contact::Summary                      summary_ = contact::Summary::zero();
     AsyncReadback<Exec, contact::Summary> readback_;

@@ -28,8 +28,9 @@ void SandBodyCoupling<Exec, Real>::transfer(StateFile& file, const dem::BodiesVi
 {
     const double nobody = -1, last = static_cast<double>(partners.bodies) - 1;
     const auto   body = [&](std::int32_t& value) { return accept::number(value, nobody, last); };
-    file.numbers("contact/steps", accept::number(used_, 0, accept::largest), accept::number(span_, 0, accept::largest),
-                 version_, accept::number(begun_, 0, 0)); // a step that has begun is not saved
+    file.numbers("contact/steps", accept::number(used_, 0, accept::largest),
+                 accept::number(used_by_sand_, 0, accept::largest), accept::number(span_, 0, accept::largest), version_,
+                 list_, accept::number(begun_, 0, 0)); // a step that has begun is not saved
     file.numbers("contact/summary", summary_.live, summary_.live_named, summary_.energy, summary_.dissipated,
                  summary_.stiffest.value, body(summary_.stiffest.body), summary_.stiffest.point_id,
                  summary_.deepest.value, body(summary_.deepest.body), summary_.deepest.point_id,

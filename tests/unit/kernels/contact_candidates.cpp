@@ -187,6 +187,33 @@ TYPED_TEST(ContactCandidates, NoneIsMissedWherePointsHaveLeftTheirCells)
     EXPECT_EQ(missing(expected, checked_candidates(scene)), 0u);
 }
 
+/// Expects that no contact is missed when the bodies are moved by their ways (m) in any of 20 random directions;
+/// returns the number of contacts.
+template<class Scene>
+std::size_t none_missed_after(Scene& scene, const std::vector<AnalyticShape>& shapes,
+                              const std::vector<BodyState>& bodies, const std::vector<double>& ways,
+                              const std::set<std::pair<int, int>>& found)
+{
+    scene.numbers.dt = 0; // then only touching pairs are found, wherever the bodies have moved
+    std::mt19937                     random(6);
+    std::normal_distribution<double> normal;
+    std::size_t                      touching = 0;
+    for (int way = 0; way < 20; ++way)
+    {
+        auto moved = bodies;
+        for (std::size_t b = 0; b < moved.size(); ++b)
+        {
+            const Vec3<double> aside(normal(random), normal(random), normal(random));
+            moved[b].position += ways[b] * aside.normalized();
+        }
+        const auto expected = brute_force(scene, shapes, moved, 1);
+        touching += expected.size();
+        EXPECT_EQ(missing(expected, found), 0u);
+    }
+    std::printf("[ measured ] %zu candidates, %zu contacts in 20 places, none missed\n", found.size(), touching);
+    return touching;
+}
+
 /// A list with a skin is valid for later steps: bodies and points may approach by half of it in total. The other half
 /// accounts for the field, which between its nodes is steeper than a distance, as in a single step.
 TYPED_TEST(ContactCandidates, NoneIsMissedUntilTheSkinIsUsedUp)
@@ -201,23 +228,44 @@ TYPED_TEST(ContactCandidates, NoneIsMissedUntilTheSkinIsUsedUp)
     scene.find();
     const auto found = checked_candidates(scene);
 
-    scene.numbers.dt = 0; // then only touching pairs are found, wherever the bodies have moved
-    std::mt19937                     random(6);
-    std::normal_distribution<double> normal;
-    std::size_t                      touching = 0;
-    for (int way = 0; way < 20; ++way)
+    const std::vector<double> ways(bodies.size(), 0.5 * numbers.skin);
+    const std::size_t         touching = none_missed_after(scene, shapes, bodies, ways, found);
+    EXPECT_GT(touching, 2000u);
+}
+
+/// Candidates found beside a list of pairs hold while each body goes no further from its place in that list than the
+/// list allows it, and points use up the skin: bodies have gone a quarter of that before the search.
+TYPED_TEST(ContactCandidates, NoneIsMissedUntilAListExpires)
+{
+    const auto   shapes = two_shapes();
+    const auto   sand   = random_sand(20000, {0.35, 0.35, 0.35}, {0.7, 0.65, 0.65});
+    auto         bodies = moving_bodies();
+    SceneNumbers numbers;
+    numbers.dt   = 1e-5;
+    numbers.skin = 0.004;
+    typename TestFixture::Scene scene(this->exec(), shapes, bodies, sand, numbers);
+
+    const std::vector<double> allowed{0.003, 0.012, 0.02, 0.001};
+    using Exec = typename TypeParam::Exec;
+    Array<Exec, Vec3<double>> position(this->exec(), "test listed positions");
+    Array<Exec, Quat>         orientation(this->exec(), "test listed orientations");
+    Array<Exec, double>       allowance(this->exec(), "test allowed displacements");
+    std::vector<Vec3<double>> places;
+    std::vector<Quat>         turned;
+    std::vector<double>       ways;
+    for (std::size_t b = 0; b < bodies.size(); ++b)
     {
-        auto moved = bodies;
-        for (BodyState& body : moved)
-        {
-            const Vec3<double> aside(normal(random), normal(random), normal(random));
-            body.position += 0.5 * numbers.skin * aside.normalized();
-        }
-        const auto expected = brute_force(scene, shapes, moved, 1);
-        touching += expected.size();
-        EXPECT_EQ(missing(expected, found), 0u);
+        places.push_back(bodies[b].position + Vec3<double>(0.25 * allowed[b], 0, 0));
+        turned.push_back(bodies[b].orientation);
+        ways.push_back(1.25 * allowed[b] + 0.5 * numbers.skin);
     }
-    std::printf("[ measured ] %zu candidates, %zu contacts in 20 places, none missed\n", found.size(), touching);
+    position.assign(places);
+    orientation.assign(turned);
+    allowance.assign(allowed);
+    scene.listed = {position.data(), orientation.data(), allowance.data()};
+    scene.find();
+    const auto        found    = checked_candidates(scene);
+    const std::size_t touching = none_missed_after(scene, shapes, bodies, ways, found);
     EXPECT_GT(touching, 2000u);
 }
 

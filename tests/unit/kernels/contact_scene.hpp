@@ -132,8 +132,13 @@ public:
     contact::SearchReach reach() const
     {
         const double radius = contact::point_radius(numbers.volume, contact::RadiusRule::sphere);
-        return {numbers.dt,          numbers.point_speed,   numbers.point_drift,
-                radius * (1 + 1e-6), numbers.sampled_below, numbers.skin};
+        return {numbers.dt,
+                numbers.point_speed,
+                numbers.point_drift,
+                radius * (1 + 1e-6),
+                numbers.sampled_below,
+                numbers.skin,
+                listed};
     }
 
     contact::PointBodyLaw law() const
@@ -234,6 +239,7 @@ public:
     dem::TemplateView host_template(const AnalyticShape& shape) const { return view_of(shape, shape.values.data()); }
 
     SceneNumbers                numbers;
+    dem::ListedPlaces           listed; ///< of the next search
     dem::Bodies<Exec>           bodies;
     mpm::Points<Exec, Real>     points;
     contact::PointContact<Exec> contact;

@@ -178,8 +178,8 @@ TYPED_TEST(BodyPairs, AreThoseOfBruteForceAroundFewFastBodies)
     typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
     scene.find(step);
     const std::vector<std::uint64_t> expected = brute_force(solids, {});
-    const double                     cell = 2 * (grown(solids[50], 0) + 0.2 * solids[50].scale);
-    std::int64_t                     far  = 0;
+    const double                     cell     = 2 * (grown(solids[50], 0) + 0.2 * solids[50].scale);
+    std::int64_t                     far      = 0;
     for (const std::uint64_t key : expected)
     {
         const auto a = static_cast<std::size_t>(dem::first_of(key)), b = static_cast<std::size_t>(dem::second_of(key));

@@ -23,10 +23,10 @@ struct DisplacementLimit
 {
     ListedPlaces        listed; ///< without `allowed` nobody looks
     const TemplateView* templates = nullptr;
-    double              dt          = 0;       ///< s, of a substep
-    std::int32_t        batch       = 1;       ///< substeps
-    std::int32_t        substeps    = 0;       ///< of the step
-    std::int32_t*       last        = nullptr; ///< the last substep of the step with this list; 0: not known yet
+    double              dt        = 0;       ///< s, of a substep
+    std::int32_t        batch     = 1;       ///< substeps
+    std::int32_t        substeps  = 0;       ///< of the step
+    std::int32_t*       last      = nullptr; ///< the last substep of the step with this list; 0: not known yet
 
     std::int32_t  substep  = 1;       ///< number of the present one in the step, from 1
     std::int32_t* repeated = nullptr; ///< where one launch repeats substeps: that number instead

@@ -21,10 +21,7 @@ struct Measure
 
     TREAD_HD double radius(std::int64_t b) const { return bounding_radius(bodies, templates, b); }
 
-    TREAD_HD double moved(std::int64_t b) const
-    {
-        return displacement_since(bodies, b, listed, radius(b));
-    }
+    TREAD_HD double moved(std::int64_t b) const { return displacement_since(bodies, b, listed, radius(b)); }
 
     TREAD_HD void keep(std::int64_t b, double way) const
     {
