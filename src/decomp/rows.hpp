@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <type_traits>
 
 #include "backend/execution.hpp"
@@ -41,7 +42,7 @@ Column planes(T* data, std::int64_t stride, int components)
     return {reinterpret_cast<std::byte*>(data), 1, stride, static_cast<std::int32_t>(sizeof(T)), components};
 }
 
-constexpr int most_columns = 26;
+constexpr int most_columns = 32;
 
 /// The columns that make up a packed row.
 struct Columns
@@ -52,6 +53,7 @@ struct Columns
 
     void add(const Column& column)
     {
+        if (count == most_columns) { throw std::logic_error("a row of more columns than there is room for"); }
         at[count++] = column;
         words += column.words();
     }

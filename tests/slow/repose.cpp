@@ -142,15 +142,17 @@ private:
 
     void find()
     {
-        const dem::BodiesView bodies  = scene_.bodies.view();
-        const dem::BodyLaw    law     = scene_.law();
-        double* const         allowed = scene_.pairs.displacement.allowed.data();
+        const dem::BodiesView    bodies  = scene_.bodies.view();
+        const dem::BodyLaw       law     = scene_.law();
+        const dem::AllowedMotion allowed = scene_.pairs.displacement.view();
+        const dem::Ahead         ahead{block * dt_, block * dt_};
         if (!listed_ || read(exec_, largest_displacement_ahead(exec_, displacements_, bodies, law.templates, allowed,
-                                                               block * dt_)) > 1)
+                                                               age_, ahead)) > 1)
         {
             scene_.find(block * dt_);
             mark_places(exec_, displacements_, bodies);
             listed_ = true;
+            age_    = 0;
         }
         expect_contacts(exec_, scene_.pairs, bodies, law, scene_.numbers.gravity, dt_);
         const double shortest = smallest_contact_time(exec_, scene_.pairs, bodies);
@@ -161,6 +163,7 @@ private:
     {
         evaluate_contacts(exec_, scene_.pairs, scene_.bodies.view(), scene_.law(), dt_);
         move_bodies(exec_, scene_.step(dt_, damping));
+        age_ += dt_;
     }
 
     Exec                           exec_;
@@ -168,6 +171,7 @@ private:
     dem::DisplacementTracker<Exec> displacements_;
     double                         dt_     = 2e-5; ///< s
     bool                           listed_ = false;
+    double                         age_    = 0; ///< s, of the list
 };
 
 test::SolidNumbers numbers()

@@ -44,10 +44,10 @@ struct OwnReach
 {
     dem::BodiesView     bodies;
     const double*       bounding_radius;
-    const double*       allowed;
+    dem::AllowedMotion  allowed;
     const std::int32_t* is_large;
 
-    TREAD_HD double of(std::int64_t b) const { return bounding_radius[b] + allowed[b]; }
+    TREAD_HD double of(std::int64_t b) const { return bounding_radius[b] + allowed.way_of(b); }
 };
 
 struct WriteReaches
@@ -101,7 +101,7 @@ struct WriteBalls
 template<class Exec>
 OwnReach own_reach(const double* bounding_radius, const dem::Pairs<Exec>& pairs, const dem::BodiesView& bodies)
 {
-    return {bodies, bounding_radius, pairs.displacement.allowed.data(), pairs.sizes.is_large.data()};
+    return {bodies, bounding_radius, pairs.displacement.view(), pairs.sizes.is_large.data()};
 }
 
 } // namespace tread::contact::border_steps

@@ -85,7 +85,7 @@ TREAD_HD SearchBody search_body(const dem::BodiesView& bodies, const dem::Templa
     const bool   sampled = takes_samples(*shape, bodies.scale[b], reach.sampled_below);
     const double patch   = sampled ? patch_reach * reach.largest_radius : 0.0;
     const double nearer  = std::fmax(2.0 * reach.dt * speed, reach.skin);
-    const double listed  = dem::displacement_to_come(bodies, b, reach.listed, radius);
+    const double listed  = dem::way_to_come(bodies, b, reach.listed, radius);
     return {shape, bodies.scale[b], bodies.position[b], bodies.orientation[b], nearer + 2.0 * (listed + patch)};
 }
 

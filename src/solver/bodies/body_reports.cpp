@@ -149,7 +149,7 @@ void request_report(BodyState<Exec>& state, BodyReports<Exec>& reports, PairList
     if (!lists.checked_within_step)
     {
         reports.displacement_on_host.request(dem::largest_displacement(
-            exec, lists.displacements, state.view(), law.templates, state.pairs.displacement.allowed.data()));
+            exec, lists.displacements, state.view(), law.templates, state.pairs.displacement.view(), lists.age));
     }
     reports.overlap_on_host.request(dem::largest_overlap(exec, state.pairs, state.view(), law));
 }

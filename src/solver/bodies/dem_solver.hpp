@@ -89,11 +89,7 @@ public:
     std::int64_t partition_version() const { return state_.ranks ? lists_.version : 0; }
 
     /// What the present list allows each body; nothing where no list is kept.
-    dem::ListedPlaces listed() const
-    {
-        return state_.has_contact ? lists_.displacements.listed(state_.pairs.displacement.allowed.data())
-                                  : dem::ListedPlaces{};
-    }
+    dem::ListedPlaces listed() const { return state_.has_contact ? lists_.places(state_) : dem::ListedPlaces{}; }
 
     /// Predicted work of the bodies that this rank owns, in points, on several ranks; add_loads adds it to their
     /// pages.

@@ -32,10 +32,10 @@ constexpr double watched_share = 0.5;
 
 /// Address of the maximum in the backend's memory.
 template<class Exec>
-const double* displacement_ahead(BodyState<Exec>& state, PairLists<Exec>& lists, double ahead)
+const double* displacement_ahead(BodyState<Exec>& state, PairLists<Exec>& lists, const dem::Ahead& ahead)
 {
     return dem::largest_displacement_ahead(state.exec, lists.displacements, state.view(), state.tables.law.templates,
-                                           state.pairs.displacement.allowed.data(), ahead);
+                                           state.pairs.displacement.view(), lists.age, ahead);
 }
 
 /// Changes nothing before the list is known to be valid on all ranks.
@@ -45,7 +45,7 @@ bool is_valid(BodyState<Exec>& state, PairLists<Exec>& lists, double dt)
     const Communicator* ranks = state.communicator();
     const bool          known = lists.listed && !(state.ranks && state.ranks->pages_have_changed());
     const double        ahead = lists.checked_within_step ? watched_share * dt : dt;
-    if (!known || largest_over_ranks(ranks, read(state.exec, displacement_ahead(state, lists, ahead))) > 1)
+    if (!known || largest_over_ranks(ranks, read(state.exec, displacement_ahead(state, lists, {ahead, dt}))) > 1)
     {
         return false;
     }
@@ -73,10 +73,10 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     dem::begin_list(exec, pairs, state.view(), law);
     if (state.shares())
     {
-        dem::share_speeds(exec, pairs, state.view(), state.shared());
+        dem::share_speeds(exec, pairs, state.view(), law, state.shared());
         state.ranks->shared().exchange_speeds();
     }
-    dem::request_displacement(exec, pairs, state.view(), law, dt, state.shared());
+    dem::request_displacement(exec, pairs, state.view(), law, dt, state.gravity.norm(), state.shared());
     if (state.ranks) { state.ranks->sum_wanted_displacement(pairs); }
     dem::allow_displacement(exec, pairs, state.view(), law, dt, substeps,
                             static_cast<std::int64_t>(state.numbers().bodies()));
@@ -88,6 +88,7 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
     dem::list_pairs(exec, pairs, state.view(), law, dt);
     dem::mark_places(exec, lists.displacements, state.view());
     lists.listed = true;
+    lists.age    = 0;
     ++lists.version;
 }
 
@@ -187,7 +188,8 @@ template<class Exec>
 dem::DisplacementLimit PairLists<Exec>::limit(BodyState<Exec>& state)
 {
     if (!checked_within_step) { return {}; }
-    return {displacements.listed(state.pairs.displacement.allowed.data()),
+    const double before = age - substep_dt * static_cast<double>(done);
+    return {displacements.listed(state.pairs.displacement.view(), before),
             state.tables.law.templates,
             substep_dt,
             static_cast<std::int32_t>(batch),
@@ -201,14 +203,14 @@ template<class Exec>
 std::int64_t PairLists<Exec>::take_done(const Exec& exec)
 {
     const std::int64_t before = std::exchange(done, requested);
-    if (!checked_within_step) { return done - before; }
-    last = read(exec, substeps.data());
+    if (checked_within_step) { last = read(exec, substeps.data()); }
     if (last != 0 && last <= requested)
     {
         expired = last < of_step;
         done = requested = std::exchange(last, 0);
         substeps.fill_zero();
     }
+    age += substep_dt * static_cast<double>(done - before);
     return done - before;
 }
 
@@ -222,7 +224,7 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     }
     dem::Pairs<Exec>& pairs = state.pairs;
     const auto        count = static_cast<std::size_t>(state.bodies.position.size());
-    file.numbers("pairs/listed", listed);
+    file.numbers("pairs/listed", listed, accept::number(age, 0, accept::largest));
     const std::vector<std::uint64_t> keys = pairs.key.to_host();
     // Without a list there are no rows.
     const auto of_each = [&](std::size_t rows, auto bound)
@@ -235,6 +237,11 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     const auto                shape = state.bodies.shape.to_host();
     file.own("pairs/peak", peaks, of_each(keys.size(), accept::finite()));
     file.own("pairs/travel", pairs.displacement.allowed, of_each(count, accept::not_negative()));
+    file.own("pairs/drift", pairs.displacement.drift,
+             [count](const auto& values) {
+                 return values.empty() ? accept::Verdict{} : accept::all(accept::rows(count), accept::finite())(values);
+             });
+    file.own("pairs/drift_time", pairs.displacement.span, accept::all(accept::rows(1), accept::not_negative()));
     file.own("pairs/first_node", first, of_each(keys.size() + 1, accept::cuts()));
     const std::size_t nodes = first.empty() ? 0 : static_cast<std::size_t>(std::max(first.back(), 0));
     file.own("pairs/node", pairs.nodes.node,

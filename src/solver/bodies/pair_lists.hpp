@@ -24,6 +24,12 @@ struct PairLists
         substeps.fill_zero();
     }
 
+    /// What the present list allows the bodies, as of the last call of take_done.
+    dem::ListedPlaces places(const BodyState<Exec>& state) const
+    {
+        return displacements.listed(state.pairs.displacement.view(), age);
+    }
+
     /// Limit of displacements for the next substep; empty where no substep looks.
     dem::DisplacementLimit limit(BodyState<Exec>& state);
 
@@ -49,6 +55,7 @@ struct PairLists
     bool                           listed              = false; ///< whether pairs were found
     bool                           checked_within_step = false; ///< the substeps of a step look ahead, too
     std::int64_t                   version             = 0;     ///< counts lists
+    double                         age                 = 0;     ///< s, of the list after `done` substeps
 
     bool                      expired    = false; ///< the substeps have ended with the last that the list serves
     std::int32_t              last       = 0;     ///< DisplacementLimit::last as it was read last

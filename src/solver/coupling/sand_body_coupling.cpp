@@ -69,7 +69,7 @@ void SandBodyCoupling<Exec, Real>::find_candidates(const mpm::PointsView<Real>& 
     // What sand moved in the last span is known only now: a body may have hit it. The skin is twice the approach.
     used_by_sand_ += std::exchange(span_, next.time) * 2 * next.sand_speed;
     const double nearer  = 2 * next.time * 2 * next.speed; // a body and a point, each at up to twice the speed
-    const bool   bounded = list.places.allowed != nullptr && list.version == list_;
+    const bool   bounded = list.places.allowed.displacement != nullptr && list.version == list_;
     const double used    = bounded ? std::min(used_, used_by_sand_) : used_;
     if (version != version_ || used + nearer > skin_)
     {

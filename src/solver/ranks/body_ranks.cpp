@@ -21,12 +21,12 @@ namespace
 template<class Exec>
 decomp::Columns state_columns(const RowArrays<Exec>& arrays)
 {
-    const dem::BodiesView view = arrays.bodies.view();
-    decomp::Columns       columns =
-        decomp::columns(view.position, view.orientation, view.velocity, view.angular_velocity, view.mass, view.inertia,
-                        view.scale, view.shape, view.material, view.locked, view.damped, view.force, view.torque,
-                        view.stiffness, arrays.pairs.displacement.allowed.data(), arrays.pairs.sizes.node_area.data(),
-                        arrays.pairs.sizes.is_large.data(), arrays.bounding_radii.data());
+    const dem::BodiesView view    = arrays.bodies.view();
+    decomp::Columns       columns = decomp::columns(
+              view.position, view.orientation, view.velocity, view.angular_velocity, view.mass, view.inertia, view.scale,
+              view.shape, view.material, view.locked, view.damped, view.force, view.torque, view.stiffness,
+              arrays.pairs.displacement.allowed.data(), arrays.pairs.displacement.drift.data(),
+              arrays.pairs.sizes.node_area.data(), arrays.pairs.sizes.is_large.data(), arrays.bounding_radii.data());
     if (arrays.inertia_factor != nullptr) { columns.add(decomp::rows(arrays.inertia_factor->data())); }
     if (!arrays.pairs.sleep.wanted) { return columns; }
     columns.add(decomp::rows(view.asleep));
@@ -195,6 +195,7 @@ void BodyRanks<Exec>::move_rows(const RowArrays<Exec>& arrays, RowChange change)
             if (field != "weight") { take(array); } // of named bodies, whose rows stay
         });
     take(arrays.pairs.displacement.allowed);
+    take(arrays.pairs.displacement.drift);
     take(arrays.pairs.sizes.node_area);
     take(arrays.pairs.sizes.is_large);
     take(arrays.bounding_radii);

@@ -62,7 +62,7 @@ private:
     Array<Exec, std::int32_t>   row_;    ///< row of each share
     Shares<dem::WrenchShare>    wrench_;
     Shares<dem::StiffnessShare> stiffness_;
-    Shares<double>              speed_;
+    Shares<dem::NearSpeeds>     speed_;
 
     std::optional<Shares<std::int32_t>> mark_; ///< only where bodies may sleep
 };

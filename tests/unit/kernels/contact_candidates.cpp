@@ -262,7 +262,7 @@ TYPED_TEST(ContactCandidates, NoneIsMissedUntilAListExpires)
     position.assign(places);
     orientation.assign(turned);
     allowance.assign(allowed);
-    scene.listed = {position.data(), orientation.data(), allowance.data()};
+    scene.listed = {position.data(), orientation.data(), {allowance.data()}};
     scene.find();
     const auto        found    = checked_candidates(scene);
     const std::size_t touching = none_missed_after(scene, shapes, bodies, ways, found);

@@ -131,7 +131,8 @@ void expect_an_early_end(const Exec& exec, const std::vector<BodyState>& bodies)
     mark_places(exec, places, one.bodies.view());
     const auto look = [&]
     {
-        largest_displacement_ahead(exec, places, one.bodies.view(), one.law().templates, allowed.data(), 2 * dt);
+        largest_displacement_ahead(exec, places, one.bodies.view(), one.law().templates, {allowed.data()}, 0,
+                                   {2 * dt, 2 * dt});
         return places.share.to_host()[0]; // m
     };
     allowed.assign(std::vector<double>(bodies.size(), 1.0));
@@ -147,16 +148,8 @@ void expect_an_early_end(const Exec& exec, const std::vector<BodyState>& bodies)
     allowed.assign(limits);
     numbers.fill_zero();
     auto step  = other.body_step(dt);
-    step.limit = {places.position.data(),
-                  places.orientation.data(),
-                  allowed.data(),
-                  other.law().templates,
-                  dt,
-                  1,
-                  30,
-                  numbers.data(),
-                  1,
-                  numbers.data() + 1};
+    step.limit = {
+        places.listed({allowed.data()}), other.law().templates, dt, 1, 30, numbers.data(), 1, numbers.data() + 1};
     run_substeps(exec, other.contact, other.law(), step, 30);
     EXPECT_EQ(read(exec, numbers.data()), last);
     expect_same("velocity", other.bodies.velocity, one.bodies.velocity);

@@ -124,7 +124,7 @@ public:
         stage_bodies(exec_, pairs, bodies.view());
         for (int step = 0; step < count; ++step)
         {
-            if (substeps_++ % every == 0) { find_pairs(exec_, pairs, bodies.view(), law(), dt * every); }
+            if (substeps_++ % every == 0) { find(dt * every); }
             evaluate_contacts(exec_, pairs, bodies.view(), law(), dt);
             move(dt);
         }
@@ -141,7 +141,10 @@ public:
         return {pairs, bodies.view(), law(), totals.data(), {nullptr, 0}, {numbers.gravity, alpha, dt, outside}};
     }
 
-    void find(double dt, double substeps = 1) { find_pairs(exec_, pairs, bodies.view(), law(), dt, substeps); }
+    void find(double dt, double substeps = 1)
+    {
+        find_pairs(exec_, pairs, bodies.view(), law(), dt, substeps, numbers.gravity.norm());
+    }
 
     /// Forces on the bodies at their present positions: a move of zero duration.
     void contact(double dt)

@@ -67,9 +67,7 @@ public:
     std::int32_t run()
     {
         auto step  = scene_.step(short_step);
-        step.limit = {places_.position.data(),
-                      places_.orientation.data(),
-                      allowed_.data(),
+        step.limit = {places_.listed({allowed_.data()}),
                       scene_.law().templates,
                       short_step,
                       batch_,
@@ -91,7 +89,7 @@ public:
             const double ahead = short_step * std::min(2 * batch_, of_step - done);
             const double share =
                 read(exec_, largest_displacement_ahead(exec_, places_, scene_.bodies.view(), scene_.law().templates,
-                                                       allowed_.data(), ahead));
+                                                       {allowed_.data()}, 0, {ahead, ahead}));
             if (!(share > 1) || done + batch_ >= of_step) { continue; }
             run_substeps(exec_, scene_.step(short_step), batch_);
             return done + batch_;

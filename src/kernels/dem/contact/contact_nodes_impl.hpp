@@ -97,17 +97,16 @@ struct Walk
     {
         const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
         Couple             couple;
-        couple.body[0]   = instance_of(bodies, law.templates, a, bodies.position[a]);
-        const double way = pairs.allowed_displacement[a];
+        couple.body[0] = instance_of(bodies, law.templates, a, bodies.position[a]);
         if (b >= bodies.count)
         {
             const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
-            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, way, lanes, take);
+            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, pairs.allowed.way_of(a), lanes, take);
             return;
         }
         couple.body[1] = instance_of(bodies, law.templates, b, bodies.position[a]);
         const TwoSides<Meet> sides{meet, couple};
-        const double         together = way + pairs.allowed_displacement[b];
+        const double         together = pair_reach(bodies, law.templates, pairs.allowed, a, b).approach;
         walk(sides.first(), together, lanes, take);
         walk(sides.second(), together, lanes, take);
     }

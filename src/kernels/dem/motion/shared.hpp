@@ -29,6 +29,13 @@ struct StiffnessShare
     TREAD_HD double most() const { return std::fmax(approach, std::fmax(first_touch, 0.5 * touches)); }
 };
 
+/// Speeds of a body and those near it.
+struct NearSpeeds
+{
+    double fastest; ///< m/s, maximum of all
+    double passing; ///< m/s, maximum of the others' points against the body; its own speed where one cannot go along
+};
+
 struct SharedView
 {
     std::int64_t        count = 0;       ///< number of bodies that this rank integrates together with others
@@ -39,7 +46,7 @@ struct SharedView
 
     WrenchShare*    wrench    = nullptr; ///< [rows], this rank's own shares first: [count]
     StiffnessShare* stiffness = nullptr; ///< [rows], likewise
-    double*         speed     = nullptr; ///< [rows], likewise: m/s, maximum speed of the bodies near it
+    NearSpeeds*     near      = nullptr; ///< [rows], likewise
     std::int32_t*   mark      = nullptr; ///< [rows], likewise: of the sleep of bodies
 
     TREAD_HD bool is_shared(std::int64_t b) const { return place != nullptr && place[b] >= 0; }
@@ -57,13 +64,14 @@ TREAD_HD WrenchShare wrench_of(const SharedView& shared, std::int64_t i)
     return sum;
 }
 
-/// Maximum over ranks of the speed shares of body[i].
-TREAD_HD double speed_of_all(const SharedView& shared, std::int64_t i)
+/// Maxima over ranks of the speed shares of body[i].
+TREAD_HD NearSpeeds near_of_all(const SharedView& shared, std::int64_t i)
 {
-    double largest = 0;
+    NearSpeeds largest{0, 0};
     for (std::int32_t r = shared.first[i]; r < shared.first[i + 1]; ++r)
     {
-        largest = std::fmax(largest, shared.speed[shared.row[r]]);
+        const NearSpeeds& share = shared.near[shared.row[r]];
+        largest = {std::fmax(largest.fastest, share.fastest), std::fmax(largest.passing, share.passing)};
     }
     return largest;
 }

@@ -17,25 +17,31 @@ TREAD_HD double displacement_since(const BodiesView& bodies, std::int64_t b, con
     return (bodies.position[b] - position).norm() + 2.0 * turned * radius;
 }
 
-/// The same since the body's pairs were found.
-TREAD_HD double displacement_since(const BodiesView& bodies, std::int64_t b, const ListedPlaces& listed, double radius)
+/// The same since the body's pairs were found, `age` (s) ago, from where it has drifted to.
+TREAD_HD double displacement_since(const BodiesView& bodies, std::int64_t b, const ListedPlaces& listed, double age,
+                                   double radius)
 {
-    return displacement_since(bodies, b, listed.position[b], listed.orientation[b], radius);
+    Vec3<double> place = listed.position[b];
+    if (listed.allowed.drift != nullptr) { place += age * listed.allowed.drift[b]; }
+    return displacement_since(bodies, b, place, listed.orientation[b], radius);
 }
 
 /// Upper bound of the way (m) of any point of a body until its pairs are found again; 0 if there is no list.
-TREAD_HD double displacement_to_come(const BodiesView& bodies, std::int64_t b, const ListedPlaces& listed,
-                                     double radius)
+TREAD_HD double way_to_come(const BodiesView& bodies, std::int64_t b, const ListedPlaces& listed, double radius)
 {
-    return listed.allowed == nullptr ? 0.0 : listed.allowed[b] + displacement_since(bodies, b, listed, radius);
+    if (listed.allowed.displacement == nullptr) { return 0; }
+    return listed.allowed.displacement[b] + displacement_since(bodies, b, listed, listed.age, radius) +
+           listed.allowed.drift_of(b);
 }
 
-/// Upper bound of the way (m) that a body of this bounding radius (m) goes within the coming steps, of `ahead` (s)
+/// Upper bound of the displacement (m) of a body of this bounding radius (m) within the coming steps, of `ahead` (s)
 /// each, plus a reserve, since a body at rest may be set in motion.
-TREAD_HD double displacement_ahead(const BodiesView& bodies, std::int64_t b, double radius, double ahead)
+TREAD_HD double displacement_ahead(const BodiesView& bodies, std::int64_t b, const AllowedMotion& allowed,
+                                   double radius, double ahead)
 {
-    const double way = ahead * speed_of(bodies, b, radius);
-    return steps_ahead * way + rest_reserve * radius;
+    Vec3<double> velocity = bodies.velocity[b];
+    if (allowed.drift != nullptr) { velocity -= allowed.drift[b]; }
+    return steps_ahead * ahead * (velocity.norm() + rim_speed(bodies, b, radius)) + rest_reserve * radius;
 }
 
 inline constexpr std::int64_t batches_ahead = 2; ///< batches of substeps that a look covers: it applies one later
@@ -43,14 +49,16 @@ inline constexpr std::int64_t batches_ahead = 2; ///< batches of substeps that a
 /// Looks ahead after the present substep, if it is the last of a batch and nobody has found the list to expire yet.
 TREAD_HD void check_displacement_ahead(const DisplacementLimit& limit, const BodiesView& bodies, std::int64_t b)
 {
-    if (limit.listed.allowed == nullptr) { return; }
+    if (limit.listed.allowed.displacement == nullptr) { return; }
     const std::int32_t now = limit.repeated != nullptr ? load_together(limit.repeated) : limit.substep;
     if (now % limit.batch != 0 || now >= limit.substeps || load_together(limit.last) != 0) { return; }
     const std::int64_t left = limit.substeps - now, covered = batches_ahead * limit.batch;
     const double       ahead = limit.dt * static_cast<double>(covered < left ? covered : left),
-                 radius      = bounding_radius(bodies, limit.templates, b),
-                 moved       = displacement_since(bodies, b, limit.listed, radius);
-    if (!((moved + displacement_ahead(bodies, b, radius, ahead)) / limit.listed.allowed[b] <= 1))
+                 radius = bounding_radius(bodies, limit.templates, b), age = limit.listed.age + limit.dt * now,
+                 moved = displacement_since(bodies, b, limit.listed, age, radius);
+    if (!((moved + displacement_ahead(bodies, b, limit.listed.allowed, radius, ahead)) /
+              limit.listed.allowed.displacement[b] <=
+          1))
     {
         store_together(limit.last, now + limit.batch);
     }

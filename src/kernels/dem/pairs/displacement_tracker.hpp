@@ -21,8 +21,11 @@ struct DisplacementTracker
     {
     }
 
-    /// `allowed`: m, per body.
-    ListedPlaces listed(const double* allowed) const { return {position.data(), orientation.data(), allowed}; }
+    /// `age`: s, since mark_places.
+    ListedPlaces listed(const AllowedMotion& allowed, double age = 0) const
+    {
+        return {position.data(), orientation.data(), allowed, age};
+    }
 
     Array<Exec, Vec3<double>> position;
     Array<Exec, Quat>         orientation;
@@ -33,18 +36,26 @@ struct DisplacementTracker
 template<class Exec>
 void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies);
 
-/// Computes the displacement of every body's furthest point since mark_places as a share of the body's allowed
-/// displacement (m), and its maximum; tracker.share holds all. No pair is missing from the list while the maximum is at
-/// most 1. It is infinite for a body without a finite position. Returns the address of the maximum in the backend's
-/// memory.
+/// Computes the displacement of every body's furthest point since mark_places as a share of what the list allows it,
+/// and its maximum; tracker.share holds all. No pair is missing from the list while the maximum is at most 1. It is
+/// infinite for a body without a finite position. `age`: s, since mark_places. Returns the address of the maximum in
+/// the backend's memory.
 template<class Exec>
 const double* largest_displacement(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
-                                   const TemplateView* templates, const double* allowed);
+                                   const TemplateView* templates, const AllowedMotion& allowed, double age);
 
-/// Computes the same share with the displacement extrapolated over the coming steps of `ahead` (s) each, plus a reserve
-/// for bodies at rest.
+/// Part of the coming steps (s each) that a look ahead covers.
+struct Ahead
+{
+    double displacement; ///< for which displacements are extrapolated
+    double drift;        ///< for which bodies must still be allowed to drift
+};
+
+/// Computes the same share with the displacement extrapolated over the coming steps, plus a reserve for bodies at rest;
+/// for a body that drifts, at least the share of the time for which it may.
 template<class Exec>
 const double* largest_displacement_ahead(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
-                                         const TemplateView* templates, const double* allowed, double ahead);
+                                         const TemplateView* templates, const AllowedMotion& allowed, double age,
+                                         const Ahead& ahead);
 
 } // namespace tread::dem

@@ -21,7 +21,7 @@ struct Measure
 
     TREAD_HD double radius(std::int64_t b) const { return bounding_radius(bodies, templates, b); }
 
-    TREAD_HD double moved(std::int64_t b) const { return displacement_since(bodies, b, listed, radius(b)); }
+    TREAD_HD double moved(std::int64_t b) const { return displacement_since(bodies, b, listed, listed.age, radius(b)); }
 
     TREAD_HD void keep(std::int64_t b, double way) const
     {
@@ -30,7 +30,7 @@ struct Measure
             share[b] = 0;
             return;
         }
-        const double used = way / listed.allowed[b];
+        const double used = way / listed.allowed.displacement[b];
         share[b]          = used >= 0 ? used : std::numeric_limits<double>::infinity();
     }
 
@@ -40,20 +40,25 @@ struct Measure
 struct MeasureAhead
 {
     Measure measure;
-    double  ahead;
+    Ahead   ahead;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        measure.keep(b, measure.moved(b) + displacement_ahead(measure.bodies, b, measure.radius(b), ahead));
+        const AllowedMotion& allowed = measure.listed.allowed;
+        const double more = displacement_ahead(measure.bodies, b, allowed, measure.radius(b), ahead.displacement);
+        measure.keep(b, measure.moved(b) + more);
+        if (!allowed.drifts(b) || !measure.bodies.is_owned(b)) { return; }
+        measure.share[b] =
+            std::fmax(measure.share[b], (measure.listed.age + steps_ahead * ahead.drift) / *allowed.span);
     }
 };
 
 template<class Exec>
 Measure measure(DisplacementTracker<Exec>& tracker, const BodiesView& bodies, const TemplateView* templates,
-                const double* allowed)
+                const AllowedMotion& allowed, double age)
 {
     tracker.share.resize(bodies.count + 1);
-    return {bodies, templates, tracker.listed(allowed), tracker.share.data()};
+    return {bodies, templates, tracker.listed(allowed, age), tracker.share.data()};
 }
 
 template<class Exec, class Item>
@@ -82,17 +87,18 @@ void mark_places(const Exec& exec, DisplacementTracker<Exec>& tracker, const Bod
 
 template<class Exec>
 const double* largest_displacement(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
-                                   const TemplateView* templates, const double* allowed)
+                                   const TemplateView* templates, const AllowedMotion& allowed, double age)
 {
     return displacement_steps::largest(exec, tracker, bodies.count,
-                                       displacement_steps::measure(tracker, bodies, templates, allowed));
+                                       displacement_steps::measure(tracker, bodies, templates, allowed, age));
 }
 
 template<class Exec>
 const double* largest_displacement_ahead(const Exec& exec, DisplacementTracker<Exec>& tracker, const BodiesView& bodies,
-                                         const TemplateView* templates, const double* allowed, double ahead)
+                                         const TemplateView* templates, const AllowedMotion& allowed, double age,
+                                         const Ahead& ahead)
 {
-    const displacement_steps::MeasureAhead item{displacement_steps::measure(tracker, bodies, templates, allowed),
+    const displacement_steps::MeasureAhead item{displacement_steps::measure(tracker, bodies, templates, allowed, age),
                                                 ahead};
     return displacement_steps::largest(exec, tracker, bodies.count, item);
 }
@@ -100,9 +106,9 @@ const double* largest_displacement_ahead(const Exec& exec, DisplacementTracker<E
 #define TREAD_INSTANTIATE(Exec)                                                                                        \
     template void          mark_places(const Exec&, DisplacementTracker<Exec>&, const BodiesView&);                    \
     template const double* largest_displacement(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,            \
-                                                const TemplateView*, const double*);                                   \
+                                                const TemplateView*, const AllowedMotion&, double);                    \
     template const double* largest_displacement_ahead(const Exec&, DisplacementTracker<Exec>&, const BodiesView&,      \
-                                                      const TemplateView*, const double*, double)
+                                                      const TemplateView*, const AllowedMotion&, double, const Ahead&)
 TREAD_FOR_THIS_BACKEND(TREAD_INSTANTIATE)
 #undef TREAD_INSTANTIATE
 

@@ -16,7 +16,7 @@ struct WriteCellRadius
     const TemplateView* templates;
     const std::int32_t* is_large;
     double              dt;
-    const double*       allowed;
+    AllowedMotion       allowed;
     double*             cell_radius;
 
     TREAD_HD void operator()(std::int64_t b) const
@@ -24,7 +24,7 @@ struct WriteCellRadius
         cell_radius[b] = 0;
         if (!bodies.is_here(b) || is_large[b] != 0) { return; }
         const double radius = bounding_radius(bodies, templates, b), speed = speed_of(bodies, b, radius);
-        cell_radius[b] = dem::cell_radius(radius, search_displacement(radius, speed, speed, dt), allowed[b]);
+        cell_radius[b] = dem::cell_radius(radius, search_displacement(radius, speed, speed, dt), allowed, b);
     }
 };
 
@@ -109,7 +109,7 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
 {
     pairs.search.cell_radius.resize(bodies.count);
     for_each(exec, "body cell radii", bodies.count,
-             WriteCellRadius{bodies, law.templates, pairs.sizes.is_large.data(), dt, pairs.displacement.allowed.data(),
+             WriteCellRadius{bodies, law.templates, pairs.sizes.is_large.data(), dt, pairs.displacement.view(),
                              pairs.search.cell_radius.data()});
     largest_of_rows(exec, pairs.search.cell_radius.data(), bodies.count, 1, pairs.measure.data());
     const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
@@ -129,7 +129,7 @@ PairSearch make_search(const Pairs<Exec>& pairs, const BodiesView& bodies, const
 {
     return {bodies,
             law,
-            pairs.displacement.allowed.data(),
+            pairs.displacement.view(),
             cell_size,
             pairs.search.cell_key.data(),
             pairs.search.cell_body.data(),

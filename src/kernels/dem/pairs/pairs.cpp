@@ -17,13 +17,13 @@ template void classify_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&, const 
 template void list_large_bodies(const Cpu&, Pairs<Cpu>&);
 template void stage_bodies(const Cpu&, Pairs<Cpu>&, const BodiesView&);
 template void begin_list(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
-template void share_speeds(const Cpu&, Pairs<Cpu>&, const BodiesView&, const SharedView&);
-template void request_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double,
+template void share_speeds(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, const SharedView&);
+template void request_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double,
                                    const SharedView&);
 template void allow_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double,
                                  std::int64_t);
 template void list_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double);
 template void resume_list(const Cpu&, Pairs<Cpu>&, const BodiesView&);
-template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double);
+template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double, double);
 
 } // namespace tread::dem

@@ -13,6 +13,7 @@
 #include "kernels/dem/contact/ray_kern.hpp"
 #include "kernels/dem/contact/rolling_kern.hpp"
 #include "kernels/dem/motion/shared.hpp"
+#include "kernels/dem/pairs/displacement_limit.hpp"
 #include "kernels/dem/sleep/sleeping_bodies.hpp"
 #include "kernels/dem/templates.hpp"
 
@@ -72,10 +73,10 @@ struct PairsView
     AnswersView          answers;   ///< of the last substep
     ContactBody*         body;      ///< record of every body
 
-    const double*       allowed_displacement; ///< m, of every body, for which the list is valid
-    const std::int32_t* first_node;           ///< [pairs + 1], first node of each pair's run of nodes that may touch
-    const std::int32_t* node;                 ///< i of the first body, ~i of the second
-    const std::int32_t* many;                 ///< pairs with more than many_nodes nodes (contact_nodes.hpp)
+    AllowedMotion       allowed;    ///< for which the list is valid
+    const std::int32_t* first_node; ///< [pairs + 1], first node of each pair's run of nodes that may touch
+    const std::int32_t* node;       ///< i of the first body, ~i of the second
+    const std::int32_t* many;       ///< pairs with more than many_nodes nodes (contact_nodes.hpp)
     std::int64_t        many_count;
     const std::int32_t* pair_of_node;
     std::int64_t        node_count;
@@ -159,13 +160,23 @@ struct AllowedDisplacement
 {
     explicit AllowedDisplacement(const Exec& exec)
         : allowed(exec, "body allowed displacement")
+        , drift(exec, "body drifts")
+        , span(exec, "time of drifts", 1)
         , speed(exec, "body speeds")
+        , wander(exec, "body speeds beside drifts")
         , per_step(exec, "body displacement a step more")
     {
+        span.fill_zero();
     }
 
-    Array<Exec, double> allowed;  ///< m, until the pairs are found again
+    AllowedMotion view() const { return {allowed.data(), drift.size() > 0 ? drift.data() : nullptr, span.data()}; }
+
+    Array<Exec, double>       allowed; ///< m, AllowedMotion::displacement
+    Array<Exec, Vec3<double>> drift;   ///< m/s; empty before the first list
+    Array<Exec, double>       span;    ///< s
+
     Array<Exec, double> speed;    ///< m/s, maximum over each body's points at the start of the search
+    Array<Exec, double> wander;   ///< m/s, at which a body's displacement may grow beside its drift
     Array<Exec, double> per_step; ///< bounding radii, of bodies here: extra Verlet skin for one further step
 };
 
@@ -247,7 +258,7 @@ struct Pairs
                 resists_rolling ? rolling.data() : nullptr,
                 answers.view(),
                 body.data(),
-                displacement.allowed.data(),
+                displacement.view(),
                 nodes.first.data(),
                 nodes.node.data(),
                 nodes.many.data(),
@@ -313,27 +324,29 @@ template<class Exec>
 void stage_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies);
 
 /// Finds every pair of bodies, and of body and wall, that may touch within the next dt (s, of the MPM step), and the
-/// nodes of each pair that may enter the other body (contact_nodes.hpp). The lists are complete while no point of a
-/// body moves further than pairs.displacement.allowed. Patches of pairs that stay in the list are kept. `substeps`:
-/// number of substeps of such a step; it sets how many steps the list should remain valid.
+/// nodes of each pair that may enter the other body (contact_nodes.hpp). The lists are complete while bodies move as
+/// pairs.displacement allows. Patches of pairs that stay in the list are kept. `substeps`: number of substeps of such a
+/// step; it sets how many steps the list should remain valid. `gravity`: m/s2.
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                double substeps = 1);
+                double substeps = 1, double gravity = 0);
 
 /// find_pairs in parts, between which ranks exchange data. First part: the present list becomes the previous one, and
 /// pairs.displacement.speed is measured.
 template<class Exec>
 void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
-/// Computes this rank's shares of shared.speed, which are then exchanged; several ranks only.
+/// Computes this rank's shares of shared.near, which are then exchanged; several ranks only.
 template<class Exec>
-void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const SharedView& shared);
+void share_speeds(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law,
+                  const SharedView& shared);
 
-/// Second part: computes pairs.displacement.per_step and its sum in pairs.measure; the caller replaces the sum by that
-/// of all ranks.
+/// Second part: lets bodies drift whose neighbours in the previous list go along with them, since the rocks of a
+/// falling bed would else be listed with all that lies in their way; computes pairs.displacement.per_step and its sum
+/// in pairs.measure, which the caller replaces by that of all ranks.
 template<class Exec>
 void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                          const SharedView& shared);
+                          double gravity, const SharedView& shared);
 
 /// Third part: computes pairs.displacement.allowed of bodies that are here; owners send it to new ghosts. `all`: number
 /// of bodies of all ranks.

@@ -348,8 +348,9 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     const double cell_size = fill_cells(exec, pairs, bodies, law, dt);
     if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
     search(exec, pairs, bodies, law, cell_size);
-    release_memory(pairs.search.cell_radius, pairs.displacement.speed, pairs.displacement.per_step,
-                   pairs.search.cell_key, pairs.search.cell_body, pairs.search.found, pairs.search.accepted);
+    release_memory(pairs.search.cell_radius, pairs.displacement.speed, pairs.displacement.wander,
+                   pairs.displacement.per_step, pairs.search.cell_key, pairs.search.cell_body, pairs.search.found,
+                   pairs.search.accepted);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }
@@ -362,10 +363,10 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 
 template<class Exec>
 void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt,
-                double substeps)
+                double substeps, double gravity)
 {
     begin_list(exec, pairs, bodies, law);
-    request_displacement(exec, pairs, bodies, law, dt, {});
+    request_displacement(exec, pairs, bodies, law, dt, gravity, {});
     allow_displacement(exec, pairs, bodies, law, dt, substeps, bodies.count);
     list_pairs(exec, pairs, bodies, law, dt);
 }

@@ -16,10 +16,16 @@ inline constexpr double search_skin = 0.003, rest_reserve = 0.5 * search_skin;
 /// and the next, whose contacts are expected (contact_limits.hpp).
 inline constexpr double steps_ahead = 2.1;
 
-/// Upper bound of the speed of a body's points, m/s; `radius` = bounding radius, m.
+/// Upper bound of the speed of a body's points about its centre, m/s; `radius` = bounding radius, m.
+TREAD_HD double rim_speed(const BodiesView& bodies, std::int64_t b, double radius)
+{
+    return bodies.angular_velocity[b].norm() * radius;
+}
+
+/// Upper bound of the speed of a body's points, m/s.
 TREAD_HD double speed_of(const BodiesView& bodies, std::int64_t b, double radius)
 {
-    return bodies.velocity[b].norm() + bodies.angular_velocity[b].norm() * radius;
+    return bodies.velocity[b].norm() + rim_speed(bodies, b, radius);
 }
 
 TREAD_HD double bounding_radius(const BodiesView& bodies, const TemplateView* templates, std::int64_t b)
@@ -61,32 +67,36 @@ TREAD_HD double steps_to_last(double mean, double substeps)
 
 /// Radius (m) that a body of this bounding radius (m) brings to the width of cells. Twice the largest is wider than the
 /// search radius of any body in the grid, since most_additional is one radius.
-TREAD_HD double cell_radius(double radius, const SearchDisplacement& displacement, double allowed)
+TREAD_HD double cell_radius(double radius, const SearchDisplacement& displacement, const AllowedMotion& allowed,
+                            std::int64_t b)
 {
-    return radius + std::fmin(allowed, radius * (displacement.least + most_in_cell));
+    return radius + std::fmin(allowed.displacement[b], radius * (displacement.least + most_in_cell)) +
+           allowed.drift_of(b);
 }
 
-/// Size of a body in the search.
-struct SearchRadius
+/// How far apart two bodies' places may come to lie that touch before the pairs are found again: their bounding radii
+/// and how far they come together, m.
+struct PairReach
 {
-    double bounding;     ///< m, radius of the bounding sphere
-    double displacement; ///< m
+    double first;
+    double second;
+    double approach;
 
-    TREAD_HD double total() const { return bounding + displacement; }
+    TREAD_HD double total() const { return first + second + approach; }
 };
 
-TREAD_HD SearchRadius search_radius(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
-                                    std::int64_t b)
+TREAD_HD PairReach pair_reach(const BodiesView& bodies, const TemplateView* templates, const AllowedMotion& allowed,
+                              std::int64_t a, std::int64_t b)
 {
-    return {bounding_radius(bodies, templates, b), allowed[b]};
+    return {bounding_radius(bodies, templates, a), bounding_radius(bodies, templates, b),
+            allowed.displacement[a] + allowed.displacement[b] + allowed.drift_of(a, b)};
 }
 
 /// Whether the bounding spheres may meet.
-TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const double* allowed, std::int64_t a,
-                        std::int64_t b)
+TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates, const AllowedMotion& allowed,
+                        std::int64_t a, std::int64_t b)
 {
-    const double together =
-        search_radius(bodies, templates, allowed, a).total() + search_radius(bodies, templates, allowed, b).total();
+    const double together = pair_reach(bodies, templates, allowed, a, b).total();
     return (bodies.position[a] - bodies.position[b]).squaredNorm() <= together * together;
 }
 
@@ -103,19 +113,19 @@ TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templat
 }
 
 /// Whether each body's surface can enter the other's bounding sphere: most pairs whose spheres meet fail this test.
-TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
+TREAD_HD bool surfaces_near(const BodiesView& bodies, const TemplateView* templates, const AllowedMotion& allowed,
                             std::int64_t a, std::int64_t b)
 {
-    const SearchRadius of_a = search_radius(bodies, templates, allowed, a),
-                       of_b = search_radius(bodies, templates, allowed, b);
-    return surface_near(bodies, templates, a, bodies.position[b], of_b.total() + of_a.displacement) &&
-           surface_near(bodies, templates, b, bodies.position[a], of_a.total() + of_b.displacement);
+    const PairReach reach = pair_reach(bodies, templates, allowed, a, b);
+    return surface_near(bodies, templates, a, bodies.position[b], reach.second + reach.approach) &&
+           surface_near(bodies, templates, b, bodies.position[a], reach.first + reach.approach);
 }
 
-TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, const double* allowed,
+TREAD_HD bool may_touch_plane(const BodiesView& bodies, const TemplateView* templates, const AllowedMotion& allowed,
                               std::int64_t b, const Plane& plane)
 {
-    return plane.normal.dot(bodies.position[b]) - plane.offset <= search_radius(bodies, templates, allowed, b).total();
+    return plane.normal.dot(bodies.position[b]) - plane.offset <=
+           bounding_radius(bodies, templates, b) + allowed.way_of(b);
 }
 
 /// Cells of the search grid: 21 bits per axis, x lowest, so that neighbours along x have consecutive keys.
@@ -148,9 +158,9 @@ struct PairSearch
 {
     BodiesView           bodies;
     BodyLaw              law;
-    const double*        allowed_displacement; ///< m, of every body
-    double               cell_size;            ///< m, at least twice the maximum cell_radius in the grid
-    const std::uint64_t* cell_key;             ///< ascending
+    AllowedMotion        allowed;
+    double               cell_size; ///< m, at least twice the maximum cell_radius in the grid
+    const std::uint64_t* cell_key;  ///< ascending
     const std::int32_t*  cell_body;
     const std::int32_t*  large;
     std::int64_t         large_count;
@@ -164,7 +174,7 @@ struct PairSearch
     /// at most two cells away.
     TREAD_HD bool is_wide(std::int64_t b) const
     {
-        return 2.0 * search_radius(bodies, law.templates, allowed_displacement, b).total() > cell_size;
+        return 2.0 * (bounding_radius(bodies, law.templates, b) + allowed.way_of(b)) > cell_size;
     }
 
     TREAD_HD bool answered_here(std::int64_t a, std::int64_t b) const
@@ -175,15 +185,15 @@ struct PairSearch
     /// Whether two bodies may touch; the bounding sphere of an exact sphere is its surface. a < b.
     TREAD_HD bool near(std::int64_t a, std::int64_t b) const
     {
-        return may_touch(bodies, law.templates, allowed_displacement, a, b) &&
+        return may_touch(bodies, law.templates, allowed, a, b) &&
                law.pairs(bodies.material[a], bodies.material[b]).touch &&
                find_sorted(jointed, jointed_count, pair_key(a, b)) < 0 &&
-               ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, allowed_displacement, a, b));
+               ((is_sphere(a) && is_sphere(b)) || surfaces_near(bodies, law.templates, allowed, a, b));
     }
 
     TREAD_HD bool near(std::int64_t b, const Plane& plane) const
     {
-        return may_touch_plane(bodies, law.templates, allowed_displacement, b, plane) &&
+        return may_touch_plane(bodies, law.templates, allowed, b, plane) &&
                law.pairs(bodies.material[b], law.pairs.wall()).touch;
     }
 
