@@ -85,7 +85,7 @@ void build(BodyState<Exec>& state, PairLists<Exec>& lists, double dt, double sub
         state.assign_owners(unheld);
         agree_on_sleepers(state);
     }
-    dem::list_pairs(exec, pairs, state.view(), law, dt);
+    dem::list_pairs(exec, pairs, state.view(), law);
     dem::mark_places(exec, lists.displacements, state.view());
     lists.listed = true;
     lists.age    = 0;

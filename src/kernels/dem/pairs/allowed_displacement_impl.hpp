@@ -149,8 +149,7 @@ struct WriteAllowed
         const double radius = bounding_radius(bodies, templates, b);
         const double least  = search_displacement(radius, wander[b], wander[b], dt).least;
         const double steps  = steps_to_last(*sum / all, substeps);
-        const double most   = bodies.is_asleep(b) ? most_in_cell : most_additional;
-        allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most));
+        allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most_per_step));
         if (b == 0) { *span = (steps_ahead + steps) * dt; }
     }
 };

@@ -9,22 +9,19 @@
 namespace tread::dem::pair_steps
 {
 
-/// Computes the cell_radius of bodies in the grid, those that have just come from other ranks among them.
-struct WriteCellRadius
+/// Computes the search radius of the bodies in the grid, those that have just come from other ranks among them.
+struct WriteSearchRadius
 {
     BodiesView          bodies;
     const TemplateView* templates;
     const std::int32_t* is_large;
-    double              dt;
     AllowedMotion       allowed;
-    double*             cell_radius;
+    double*             search_radius;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        cell_radius[b] = 0;
-        if (!bodies.is_here(b) || is_large[b] != 0) { return; }
-        const double radius = bounding_radius(bodies, templates, b), speed = speed_of(bodies, b, radius);
-        cell_radius[b] = dem::cell_radius(radius, search_displacement(radius, speed, speed, dt), allowed, b);
+        const bool gridded = bodies.is_here(b) && is_large[b] == 0;
+        search_radius[b]   = gridded ? bounding_radius(bodies, templates, b) + allowed.way_of(b) : 0.0;
     }
 };
 
@@ -102,16 +99,15 @@ struct WritePairs
     }
 };
 
-/// Sorts the bodies into the cells of a grid as wide as the widest pair of bodies that are not wide; returns the cell
-/// width.
+/// Sorts the bodies into the cells of a grid as wide as the widest pair; returns the cell width.
 template<class Exec>
-double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    pairs.search.cell_radius.resize(bodies.count);
-    for_each(exec, "body cell radii", bodies.count,
-             WriteCellRadius{bodies, law.templates, pairs.sizes.is_large.data(), dt, pairs.displacement.view(),
-                             pairs.search.cell_radius.data()});
-    largest_of_rows(exec, pairs.search.cell_radius.data(), bodies.count, 1, pairs.measure.data());
+    pairs.search.radius.resize(bodies.count);
+    for_each(exec, "body search radii", bodies.count,
+             WriteSearchRadius{bodies, law.templates, pairs.sizes.is_large.data(), pairs.displacement.view(),
+                               pairs.search.radius.data()});
+    largest_of_rows(exec, pairs.search.radius.data(), bodies.count, 1, pairs.measure.data());
     const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
 
     pairs.search.cell_key.resize(bodies.count);

@@ -22,7 +22,7 @@ template void request_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, c
                                    const SharedView&);
 template void allow_displacement(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double,
                                  std::int64_t);
-template void list_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double);
+template void list_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&);
 template void resume_list(const Cpu&, Pairs<Cpu>&, const BodiesView&);
 template void find_pairs(const Cpu&, Pairs<Cpu>&, const BodiesView&, const BodyLaw&, double, double, double);
 

@@ -13,7 +13,7 @@ template void request_displacement(const Gpu&, Pairs<Gpu>&, const BodiesView&, c
                                    const SharedView&);
 template void allow_displacement(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, double,
                                  std::int64_t);
-template void list_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double);
+template void list_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&);
 template void resume_list(const Gpu&, Pairs<Gpu>&, const BodiesView&);
 template void find_pairs(const Gpu&, Pairs<Gpu>&, const BodiesView&, const BodyLaw&, double, double, double);
 

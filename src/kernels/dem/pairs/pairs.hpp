@@ -199,7 +199,7 @@ template<class Exec>
 struct PairSearchScratch
 {
     explicit PairSearchScratch(const Exec& exec)
-        : cell_radius(exec, "body cell radii")
+        : radius(exec, "body search radii")
         , cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
         , found(exec, "pairs found")
@@ -210,8 +210,8 @@ struct PairSearchScratch
     {
     }
 
-    Array<Exec, double>        cell_radius; ///< m; 0 = not in the cell grid
-    Array<Exec, std::uint64_t> cell_key;    ///< ascending
+    Array<Exec, double>        radius;   ///< m, bounding radius plus allowed way; 0 = not in the cell grid
+    Array<Exec, std::uint64_t> cell_key; ///< ascending
     Array<Exec, std::int32_t>  cell_body;
     Array<Exec, std::int32_t>  found;
     Array<Exec, std::uint32_t> accepted; ///< per body and part: the candidates found near, a bit each
@@ -356,7 +356,7 @@ void allow_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& 
 
 /// Last part: lists the pairs that this rank evaluates, except those of two sleepers (sleep/sleep.hpp).
 template<class Exec>
-void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt);
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law);
 
 /// Rebuilds everything that list_pairs derives, from a loaded list (pairs.key, patch, rolling, displacement.allowed,
 /// nodes.first and node, patches.place and several). Overlaps start as for a new list.

@@ -340,15 +340,15 @@ void begin_list(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
 }
 
 template<class Exec>
-void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double dt)
+void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
     using namespace pair_steps;
     stage_bodies(exec, pairs, bodies);
     release_memory(pairs.of_body.by_second);
-    const double cell_size = fill_cells(exec, pairs, bodies, law, dt);
+    const double cell_size = fill_cells(exec, pairs, bodies, law);
     if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
     search(exec, pairs, bodies, law, cell_size);
-    release_memory(pairs.search.cell_radius, pairs.displacement.speed, pairs.displacement.wander,
+    release_memory(pairs.search.radius, pairs.displacement.speed, pairs.displacement.wander,
                    pairs.displacement.per_step, pairs.search.cell_key, pairs.search.cell_body, pairs.search.found,
                    pairs.search.accepted);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
@@ -368,7 +368,7 @@ void find_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     begin_list(exec, pairs, bodies, law);
     request_displacement(exec, pairs, bodies, law, dt, gravity, {});
     allow_displacement(exec, pairs, bodies, law, dt, substeps, bodies.count);
-    list_pairs(exec, pairs, bodies, law, dt);
+    list_pairs(exec, pairs, bodies, law);
 }
 
 } // namespace tread::dem

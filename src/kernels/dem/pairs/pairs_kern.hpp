@@ -40,17 +40,15 @@ struct SearchDisplacement
     double per_step; ///< additional displacement for each step that a list lasts beyond the first
 };
 
-/// Upper limit of the additional displacement, in bounding radii. The little that most bodies have of it sets the
-/// width of the search grid's cells: up to `most_in_cell` of it. The few fast bodies that have more search one cell
-/// further (PairSearch::is_wide).
-inline constexpr double most_additional = 1.0, most_in_cell = 0.2;
+/// Upper limit of the additional displacement: the cells of the search grid are as wide as the largest search radius.
+inline constexpr double most_per_step = 0.2;
 
 /// Computes the displacement of a body with this speed among bodies with speeds up to `near` (m/s), which it may soon
 /// reach.
 TREAD_HD SearchDisplacement search_displacement(double radius, double speed, double near, double dt)
 {
     const double a_step = radius > 0 ? dt / radius : 0.0;
-    return {steps_ahead * a_step * speed + search_skin, std::fmin(a_step * near, most_in_cell)};
+    return {steps_ahead * a_step * speed + search_skin, std::fmin(a_step * near, most_per_step)};
 }
 
 /// Number of steps that a list should last beyond the first, if a step has `substeps` substeps and bodies move by
@@ -63,15 +61,6 @@ TREAD_HD double steps_to_last(double mean, double substeps)
     if (!(mean > 0)) { return most_steps; }
     const double cheapest = std::sqrt(worth / (substeps * mean)) - 1;
     return std::fmin(std::fmax(cheapest, 0.0), std::fmin(mean_more / mean, most_steps));
-}
-
-/// Radius (m) that a body of this bounding radius (m) brings to the width of cells. Twice the largest is wider than the
-/// search radius of any body in the grid, since most_additional is one radius.
-TREAD_HD double cell_radius(double radius, const SearchDisplacement& displacement, const AllowedMotion& allowed,
-                            std::int64_t b)
-{
-    return radius + std::fmin(allowed.displacement[b], radius * (displacement.least + most_in_cell)) +
-           allowed.drift_of(b);
 }
 
 /// How far apart two bodies' places may come to lie that touch before the pairs are found again: their bounding radii
@@ -152,14 +141,13 @@ TREAD_HD std::int64_t decider_of(const std::int32_t* is_large, std::int64_t a, s
 }
 
 /// Finds the pairs of one body; each pair is found from only one of its two bodies, one of an awake and a sleeping body
-/// from the awake one, one of a wide and another body from the wide one. Two sleepers have no pair, and no sleeper is
-/// wide. The search is split into parts, so that few bodies fill a device.
+/// from the awake one. Two sleepers have no pair. The search is split into parts, so that few bodies fill a device.
 struct PairSearch
 {
     BodiesView           bodies;
     BodyLaw              law;
     AllowedMotion        allowed;
-    double               cell_size; ///< m, at least twice the maximum cell_radius in the grid
+    double               cell_size; ///< m, at least twice the maximum search radius in the grid
     const std::uint64_t* cell_key;  ///< ascending
     const std::int32_t*  cell_body;
     const std::int32_t*  large;
@@ -169,13 +157,6 @@ struct PairSearch
     std::int64_t         jointed_count;
 
     TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
-
-    /// Whether a body in the grid may touch others that are not in the cells next to its own. All that it may touch are
-    /// at most two cells away.
-    TREAD_HD bool is_wide(std::int64_t b) const
-    {
-        return 2.0 * (bounding_radius(bodies, law.templates, b) + allowed.way_of(b)) > cell_size;
-    }
 
     TREAD_HD bool answered_here(std::int64_t a, std::int64_t b) const
     {
@@ -218,52 +199,25 @@ struct PairSearch
     {
         if (!bodies.is_here(a)) { return; }
         if (part == cell_rows) { beside_cells(a, visit); }
-        else if (is_large[a] == 0 && !bodies.is_asleep(a)) { in_rows(a, part, visit); }
+        else if (is_large[a] == 0 && !bodies.is_asleep(a)) { in_row(a, part, visit); }
     }
 
 private:
-    /// Visits the rows of cells around the body's own of which `part` is one; a wide body has several a part.
     template<class Visit>
-    TREAD_HD void in_rows(std::int64_t a, std::int64_t part, Visit& visit) const
-    {
-        const bool         wide = is_wide(a);
-        const std::int64_t away = wide ? 2 : 1, width = 2 * away + 1;
-        for (std::int64_t row = part; row < width * width; row += cell_rows)
-        {
-            in_row(a, wide, {-away, row % width - away, row / width - away}, visit);
-        }
-    }
-
-    /// Cells relative to a body's own.
-    struct CellOffset
-    {
-        std::int64_t x, y, z;
-    };
-
-    /// Visits the cells along x from `from` to its mirror image.
-    template<class Visit>
-    TREAD_HD void in_row(std::int64_t a, bool wide, const CellOffset& from, Visit& visit) const
+    TREAD_HD void in_row(std::int64_t a, std::int64_t row, Visit& visit) const
     {
         const Vec3<double>& position = bodies.position[a];
         const std::int64_t  x        = cell_coordinate(position[0], cell_size),
-                           y         = cell_coordinate(position[1], cell_size) + from.y,
-                           z         = cell_coordinate(position[2], cell_size) + from.z;
+                           y         = cell_coordinate(position[1], cell_size) + row % 3 - 1,
+                           z         = cell_coordinate(position[2], cell_size) + row / 3 - 1;
         const std::int64_t  gridded  = bodies.count - large_count;
-        const std::uint64_t last     = cell_key_of(x - from.x, y, z);
-        for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x + from.x, y, z));
+        const std::uint64_t last     = cell_key_of(x + 1, y, z);
+        for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
              i < gridded && cell_key[i] <= last; ++i)
         {
             const std::int64_t b = cell_body[i];
-            if (b != a && finds(a, wide, b)) { visit_pair(a, b, visit); }
+            if (b > a || (b < a && bodies.is_asleep(b))) { visit_pair(a, b, visit); }
         }
-    }
-
-    /// Whether the awake body a, of two in the grid, is the one from which their pair is found.
-    TREAD_HD bool finds(std::int64_t a, bool wide, std::int64_t b) const
-    {
-        if (bodies.is_asleep(b)) { return true; }
-        const bool other_wide = is_wide(b);
-        return wide != other_wide ? wide : b > a;
     }
 
     /// Visits pairs with large bodies and walls.
