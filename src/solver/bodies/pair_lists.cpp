@@ -252,6 +252,7 @@ void PairLists<Exec>::transfer(StateFile& file, BodyState<Exec>& state)
     file.own("bodies/orientation_at_search", displacements.orientation, of_each(count, accept::unit_quaternions()));
     if (!file.loads() || !listed) { return; }
     pairs.nodes.first.assign(first);
+    pairs.displacement.drifting = pairs.displacement.drift.size() > 0;
     dem::resume_list(state.exec, pairs, state.view());
     pairs.peak.assign(peaks);
 }

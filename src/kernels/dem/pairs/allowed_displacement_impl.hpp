@@ -189,6 +189,7 @@ void request_displacement(const Exec& exec, Pairs<Exec>& pairs, const BodiesView
     AllowedDisplacement<Exec>& displacement = pairs.displacement;
     displacement.drift.resize(bodies.count);
     displacement.wander.resize(bodies.count);
+    displacement.drifting = true; // until fill_cells knows
     pairs.measure.resize(1 + bodies.count);
     double*    counted = pairs.measure.data() + 1;
     const auto write   = [&](const auto& near)

@@ -9,19 +9,28 @@
 namespace tread::dem::pair_steps
 {
 
-/// Computes the search radius of the bodies in the grid, those that have just come from other ranks among them.
-struct WriteSearchRadius
+/// What the search needs the maximum of.
+struct SearchExtent
+{
+    double radius; ///< m, bounding radius plus allowed way; 0 = not in the cell grid
+    double drift;  ///< m
+};
+
+/// Computes the extent of each body here, those that have just come from other ranks among them.
+struct WriteExtent
 {
     BodiesView          bodies;
     const TemplateView* templates;
     const std::int32_t* is_large;
     AllowedMotion       allowed;
-    double*             search_radius;
+    SearchExtent*       extent;
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const bool gridded = bodies.is_here(b) && is_large[b] == 0;
-        search_radius[b]   = gridded ? bounding_radius(bodies, templates, b) + allowed.way_of(b) : 0.0;
+        extent[b] = {0, 0};
+        if (!bodies.is_here(b)) { return; }
+        extent[b].drift = allowed.drift_of(b);
+        if (is_large[b] == 0) { extent[b].radius = bounding_radius(bodies, templates, b) + allowed.way_of(b); }
     }
 };
 
@@ -99,16 +108,28 @@ struct WritePairs
     }
 };
 
+/// Measures how wide the search is and whether anything drifts; returns the search radius of the widest body in the
+/// grid, m.
+template<class Exec>
+double measure_extents(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    constexpr int width = sizeof(SearchExtent) / sizeof(double);
+    pairs.search.extent.resize(width * (bodies.count + 1));
+    auto* const extents = reinterpret_cast<SearchExtent*>(pairs.search.extent.data());
+    for_each(exec, "body search radii", bodies.count,
+             WriteExtent{bodies, law.templates, pairs.sizes.is_large.data(), pairs.displacement.view(), extents});
+    double* const largest = pairs.search.extent.data() + width * bodies.count;
+    largest_of_rows(exec, pairs.search.extent.data(), bodies.count, width, largest);
+    const auto most             = read(exec, reinterpret_cast<const SearchExtent*>(largest));
+    pairs.displacement.drifting = most.drift > 0;
+    return most.radius;
+}
+
 /// Sorts the bodies into the cells of a grid as wide as the widest pair; returns the cell width.
 template<class Exec>
 double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    pairs.search.radius.resize(bodies.count);
-    for_each(exec, "body search radii", bodies.count,
-             WriteSearchRadius{bodies, law.templates, pairs.sizes.is_large.data(), pairs.displacement.view(),
-                               pairs.search.radius.data()});
-    largest_of_rows(exec, pairs.search.radius.data(), bodies.count, 1, pairs.measure.data());
-    const double cell_size = std::max(2.0 * read(exec, pairs.measure.data()), 1e-12);
+    const double cell_size = std::max(2.0 * measure_extents(exec, pairs, bodies, law), 1e-12);
 
     pairs.search.cell_key.resize(bodies.count);
     pairs.search.cell_body.resize(bodies.count);

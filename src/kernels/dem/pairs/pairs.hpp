@@ -169,11 +169,12 @@ struct AllowedDisplacement
         span.fill_zero();
     }
 
-    AllowedMotion view() const { return {allowed.data(), drift.size() > 0 ? drift.data() : nullptr, span.data()}; }
+    AllowedMotion view() const { return {allowed.data(), drifting ? drift.data() : nullptr, span.data()}; }
 
-    Array<Exec, double>       allowed; ///< m, AllowedMotion::displacement
-    Array<Exec, Vec3<double>> drift;   ///< m/s; empty before the first list
-    Array<Exec, double>       span;    ///< s
+    Array<Exec, double>       allowed;          ///< m, AllowedMotion::displacement
+    Array<Exec, Vec3<double>> drift;            ///< m/s
+    Array<Exec, double>       span;             ///< s
+    bool                      drifting = false; ///< false: no body here drifts, so that nothing need look
 
     Array<Exec, double> speed;    ///< m/s, maximum over each body's points at the start of the search
     Array<Exec, double> wander;   ///< m/s, at which a body's displacement may grow beside its drift
@@ -199,7 +200,7 @@ template<class Exec>
 struct PairSearchScratch
 {
     explicit PairSearchScratch(const Exec& exec)
-        : radius(exec, "body search radii")
+        : extent(exec, "body search radii")
         , cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
         , found(exec, "pairs found")
@@ -210,7 +211,7 @@ struct PairSearchScratch
     {
     }
 
-    Array<Exec, double>        radius;   ///< m, bounding radius plus allowed way; 0 = not in the cell grid
+    Array<Exec, double>        extent;   ///< SearchExtent of each body, and the maximum
     Array<Exec, std::uint64_t> cell_key; ///< ascending
     Array<Exec, std::int32_t>  cell_body;
     Array<Exec, std::int32_t>  found;

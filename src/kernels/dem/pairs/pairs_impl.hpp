@@ -348,7 +348,7 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     const double cell_size = fill_cells(exec, pairs, bodies, law);
     if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
     search(exec, pairs, bodies, law, cell_size);
-    release_memory(pairs.search.radius, pairs.displacement.speed, pairs.displacement.wander,
+    release_memory(pairs.search.extent, pairs.displacement.speed, pairs.displacement.wander,
                    pairs.displacement.per_step, pairs.search.cell_key, pairs.search.cell_body, pairs.search.found,
                    pairs.search.accepted);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
