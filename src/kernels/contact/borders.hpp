@@ -61,8 +61,8 @@ template<class Exec>
 void keep_clearances(const Exec&, Borders<Exec>& borders, const std::vector<std::int32_t>& body,
                      const std::vector<Clearance>& clear);
 
-/// Largest own reach, bounding radius plus allowed way, m, of this rank's bodies: of all, and of the small
-/// ones. `bounding_radius`: m, of each body, here and below. Waits.
+/// Largest own reach, bounding radius plus allowed way, m, of this rank's bodies: of all, and of the small ones.
+/// `bounding_radius`: m, of each body, here and below. Waits.
 template<class Exec>
 std::array<double, 2> largest_reaches(const Exec&, const double* bounding_radius, dem::Pairs<Exec>& pairs,
                                       const dem::BodiesView& bodies);

@@ -51,8 +51,8 @@ struct SpeedsNear
 
     TREAD_HD NearSpeeds operator()(std::int64_t b) const
     {
-        NearSpeeds near{speed[b], 0};
         if (last.first == nullptr || is_large[b] != 0) { return {speed[b], speed[b]}; }
+        NearSpeeds near{speed[b], 0};
         last.each(b,
                   [&](std::int64_t other)
                   {
