@@ -214,22 +214,27 @@ std::size_t none_missed_after(Scene& scene, const std::vector<AnalyticShape>& sh
     return touching;
 }
 
+std::vector<PointState> sand_around() { return random_sand(20000, {0.35, 0.35, 0.35}, {0.7, 0.65, 0.65}); }
+
+SceneNumbers with_a_skin()
+{
+    SceneNumbers numbers;
+    numbers.dt   = 1e-5;
+    numbers.skin = 0.004;
+    return numbers;
+}
+
 /// A list with a skin is valid for later steps: bodies and points may approach by half of it in total. The other half
 /// accounts for the field, which between its nodes is steeper than a distance, as in a single step.
 TYPED_TEST(ContactCandidates, NoneIsMissedUntilTheSkinIsUsedUp)
 {
-    const auto   shapes = two_shapes();
-    const auto   sand   = random_sand(20000, {0.35, 0.35, 0.35}, {0.7, 0.65, 0.65});
-    auto         bodies = moving_bodies();
-    SceneNumbers numbers;
-    numbers.dt   = 1e-5;
-    numbers.skin = 0.004;
-    typename TestFixture::Scene scene(this->exec(), shapes, bodies, sand, numbers);
+    const auto                  bodies = moving_bodies();
+    typename TestFixture::Scene scene(this->exec(), two_shapes(), bodies, sand_around(), with_a_skin());
     scene.find();
     const auto found = checked_candidates(scene);
 
-    const std::vector<double> ways(bodies.size(), 0.5 * numbers.skin);
-    const std::size_t         touching = none_missed_after(scene, shapes, bodies, ways, found);
+    const std::vector<double> ways(bodies.size(), 0.5 * scene.numbers.skin);
+    const std::size_t         touching = none_missed_after(scene, two_shapes(), bodies, ways, found);
     EXPECT_GT(touching, 2000u);
 }
 
@@ -237,13 +242,8 @@ TYPED_TEST(ContactCandidates, NoneIsMissedUntilTheSkinIsUsedUp)
 /// list allows it, and points use up the skin: bodies have gone a quarter of that before the search.
 TYPED_TEST(ContactCandidates, NoneIsMissedUntilAListExpires)
 {
-    const auto   shapes = two_shapes();
-    const auto   sand   = random_sand(20000, {0.35, 0.35, 0.35}, {0.7, 0.65, 0.65});
-    auto         bodies = moving_bodies();
-    SceneNumbers numbers;
-    numbers.dt   = 1e-5;
-    numbers.skin = 0.004;
-    typename TestFixture::Scene scene(this->exec(), shapes, bodies, sand, numbers);
+    const auto                  bodies = moving_bodies();
+    typename TestFixture::Scene scene(this->exec(), two_shapes(), bodies, sand_around(), with_a_skin());
 
     const std::vector<double> allowed{0.003, 0.012, 0.02, 0.001};
     using Exec = typename TypeParam::Exec;
@@ -257,7 +257,7 @@ TYPED_TEST(ContactCandidates, NoneIsMissedUntilAListExpires)
     {
         places.push_back(bodies[b].position + Vec3<double>(0.25 * allowed[b], 0, 0));
         turned.push_back(bodies[b].orientation);
-        ways.push_back(1.25 * allowed[b] + 0.5 * numbers.skin);
+        ways.push_back(1.25 * allowed[b] + 0.5 * scene.numbers.skin);
     }
     position.assign(places);
     orientation.assign(turned);
@@ -265,7 +265,7 @@ TYPED_TEST(ContactCandidates, NoneIsMissedUntilAListExpires)
     scene.listed = {position.data(), orientation.data(), {allowance.data()}};
     scene.find();
     const auto        found    = checked_candidates(scene);
-    const std::size_t touching = none_missed_after(scene, shapes, bodies, ways, found);
+    const std::size_t touching = none_missed_after(scene, two_shapes(), bodies, ways, found);
     EXPECT_GT(touching, 2000u);
 }
 
