@@ -146,10 +146,12 @@ struct WriteAllowed
 
     TREAD_HD void operator()(std::int64_t b) const
     {
-        const double radius = bounding_radius(bodies, templates, b);
-        const double least  = search_displacement(radius, wander[b], wander[b], dt).least;
-        const double steps  = steps_to_last(*sum / all, substeps);
-        allowed[b]          = radius * (least + std::fmin(steps * per_step[b], most_per_step));
+        const double             radius = bounding_radius(bodies, templates, b);
+        const SearchDisplacement own    = search_displacement(radius, wander[b], wander[b], dt);
+        // Hit within the next step by the fastest of its neighbours, a body goes this much farther than by itself.
+        const double hit   = per_step[b] - own.per_step;
+        const double steps = steps_to_last(*sum / all, substeps);
+        allowed[b]         = radius * (own.least + std::fmin(std::fmax(steps * per_step[b], hit), most_per_step));
         if (b == 0) { *span = (steps_ahead + steps) * dt; }
     }
 };
