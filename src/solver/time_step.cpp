@@ -18,7 +18,7 @@ constexpr double point_contact_warn = 2.0;
 constexpr double unseen_fall        = dem::rest_reserve; ///< reserve of the pair list over a body's radius
 constexpr double overlap_warning    = 0.1;               ///< overlap over radius: the head-on case itself reaches 0.11
 constexpr double growth             = 1.05;
-constexpr double substeps_alone     = 10; ///< substeps a step where no sand sets the step
+constexpr double substeps_alone     = 20; ///< substeps a step, at most, where no sand sets the step
 
 struct Bound
 {
