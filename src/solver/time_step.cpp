@@ -18,13 +18,20 @@ constexpr double point_contact_warn = 2.0;
 constexpr double unseen_fall        = dem::rest_reserve; ///< reserve of the pair list over a body's radius
 constexpr double overlap_warning    = 0.1;               ///< overlap over radius: the head-on case itself reaches 0.11
 constexpr double growth             = 1.05;
-constexpr double substeps_alone     = 20; ///< substeps a step, at most, where no sand sets the step
 
 struct Bound
 {
     double      dt;
     const char* name;
 };
+
+/// Number of substeps of a step that no sand limits. They are chosen for the stiffness at its begin, so that they are
+/// few unless bodies move little in them: up to `still` while the fastest covers at most `little` smallest radii.
+double substeps_alone(double substep, const PaceLimits& limits, const Pace& pace)
+{
+    constexpr double moving = 10, still = 40, little = 0.02;
+    return std::clamp(little * limits.smallest_body / (pace.largest_speed * substep), moving, still);
+}
 
 Bound smallest_bound(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace)
 {
@@ -48,7 +55,8 @@ Bound smallest_bound(const scene::TimeOptions& options, const PaceLimits& limits
     if (pace.stiffest_point > 0) { bound(std::sqrt(point_contact_bound / pace.stiffest_point), "sand-body contact"); }
     if (!sand && pace.shortest_contact > 0)
     {
-        bound(substeps_alone * options.contact_share * pace.shortest_contact, "body-body contact");
+        const double substep = options.contact_share * pace.shortest_contact;
+        bound(substeps_alone(substep, limits, pace) * substep, "body-body contact");
     }
     return least;
 }

@@ -132,15 +132,21 @@ TYPED_TEST(BodyPairs, LastFewerStepsWhereSubstepsAreMany)
     EXPECT_LT(worst, 1e-12);
 }
 
-/// A body at rest may soon be as fast as a moving one that is about to hit it.
-TYPED_TEST(BodyPairs, AllowForTheMotionOfNeighboursInTheLastList)
+/// Spheres at rest in a row, of which the fifth is about to be hit by the sixth.
+std::vector<Solid> row_with_a_hit(double radius, double speed)
 {
-    constexpr double   radius = 0.01, speed = 0.005;
     std::vector<Solid> solids;
     for (int i = 0; i < 20; ++i) { solids.push_back(solid_sphere(radius, 1000, {0.1 * i, 0, 0})); }
     solids[5].position = solids[4].position + Vec3<double>(2 * radius, 0, 0);
     solids[5].velocity = {-speed, 0, 0};
-    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, solids, {});
+    return solids;
+}
+
+/// A body at rest may soon be as fast as a moving one that is about to hit it.
+TYPED_TEST(BodyPairs, AllowForTheMotionOfNeighboursInTheLastList)
+{
+    constexpr double            radius = 0.01, speed = 0.005;
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, row_with_a_hit(radius, speed), {});
     const double                rest = 0.003 * radius, more = 60 * step * speed;
     scene.find(step);
     EXPECT_NEAR(scene.pairs.displacement.allowed.to_host()[4], rest, 1e-12 * rest);
@@ -149,6 +155,20 @@ TYPED_TEST(BodyPairs, AllowForTheMotionOfNeighboursInTheLastList)
     EXPECT_NEAR(allowed[3], rest, 1e-12 * rest);
     EXPECT_NEAR(allowed[4], rest + more, 1e-12 * more);
     EXPECT_NEAR(allowed[5], rest + 2.1 * step * speed + more, 1e-12 * more);
+}
+
+/// So many substeps make lists last for no further step: what is hit in this one is allowed its way all the same.
+TYPED_TEST(BodyPairs, AllowForAHitWithinTheStep)
+{
+    constexpr double            radius = 0.01, way = 0.1 * radius;
+    typename TestFixture::Scene scene(this->exec(), {exact_sphere()}, row_with_a_hit(radius, way / step), {});
+    scene.find(step, 1000);
+    scene.find(step, 1000);
+    const std::vector<double> allowed = scene.pairs.displacement.allowed.to_host();
+    const double              rest    = 0.003 * radius;
+    EXPECT_NEAR(allowed[3], rest, 1e-12 * way);
+    EXPECT_NEAR(allowed[4], rest + way, 1e-12 * way);
+    EXPECT_NEAR(allowed[5], rest + 2.1 * way, 1e-12 * way);
 }
 
 TYPED_TEST(BodyPairs, AreThoseOfBruteForce)

@@ -51,9 +51,23 @@ TEST(TimeStep, SubstepsFollowTheStiffestBody)
     scene::TimeOptions bold;
     bold.contact_share = 0.4;
     EXPECT_EQ(choose_step(bold, sand_limits(), pace, 0).substeps, 5);
+}
+
+/// Without sand a step has ten substeps, and up to forty while no body moves by over 2 % of the smallest radius.
+TEST(TimeStep, HasMoreSubstepsWhereBodiesLie)
+{
     PaceLimits bodies_alone;
-    bodies_alone.longest = 1;
-    EXPECT_DOUBLE_EQ(choose_step(bold, bodies_alone, pace, 0).dt, 10 * 0.4 * 3.1e-4);
+    bodies_alone.longest       = 1;
+    bodies_alone.smallest_body = 0.01;
+    Pace pace;
+    pace.shortest_contact = 1e-3;
+    const double substep  = 0.2 * 1e-3;
+    EXPECT_DOUBLE_EQ(choose_step({}, bodies_alone, pace, 0).dt, 40 * substep);
+    pace.largest_speed = 0.02 * 0.01 / (25 * substep);
+    EXPECT_DOUBLE_EQ(choose_step({}, bodies_alone, pace, 0).dt, 25 * substep);
+    EXPECT_EQ(choose_step({}, bodies_alone, pace, 0).substeps, 25);
+    pace.largest_speed = 1;
+    EXPECT_DOUBLE_EQ(choose_step({}, bodies_alone, pace, 0).dt, 10 * substep);
 }
 
 TEST(TimeStep, FixedValuesAreTakenAndChecked)
