@@ -16,7 +16,7 @@ from command import SCENE, TREAD
 from restart_test import BACKEND, MIXED, MPIRUN, RestartTest, lasting
 
 FAULTS = os.environ["TREAD_FAULTS"]  # tests/faults
-POINTS = os.environ.get("TREAD_FAULT_POINTS", "16")
+POINTS = os.environ.get("TREAD_FAULT_POINTS", "10")
 TEXT = lasting(MIXED, 0.05)
 OPTIONS = ("--backend", BACKEND, "--threads", "1", "--set=checkpoint.every_steps=20", "--set=checkpoint.keep=2")
 LONGEST = 200  # s that a run may take on a machine that does other things too; alone it takes one, or 30 where ranks wait
