@@ -41,8 +41,8 @@ inline constexpr double point_contact_bound = 0.5; ///< bound on k dt^2 / m_p, d
 inline constexpr double displacement_bound  = 0.3; ///< v dt over the spacing, or v dt/N over the smallest body
 
 /// Chooses the step within the limits c_p dt/h <= courant, v dt <= 0.3 h, k dt^2/m_p <= 0.5 at the stiffest sand-body
-/// contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body. It grows by at most 5 % a step.
-/// Values fixed by the scene are used unchanged.
+/// contact, dt/N <= contact_share sqrt(m / sum K), v dt/N <= 0.3 of the smallest body; without sand it also has N <=
+/// 10, or up to 40 where bodies lie. It grows by at most 5 % a step. Values fixed by the scene are used unchanged.
 TimeStep choose_step(const scene::TimeOptions& options, const PaceLimits& limits, const Pace& pace, double last_dt);
 
 /// N of a step of dt (s): as the contacts require, or as the scene sets it.

@@ -62,7 +62,7 @@ template<class Exec>
 Fallen fall(const Exec& exec, double share, double mass_scaling)
 {
     constexpr double duration = 0.4;
-    constexpr int    beds     = 3; // of 36 single ones 7 were worse with scaled inertia than bold
+    constexpr int    beds     = 3; // of 36 single ones 7 do not keep it better by their scaled inertia
     Fallen           found;
     for (int seed = 1; seed <= beds; ++seed)
     {
