@@ -3,8 +3,9 @@
 #include <set>
 #include <vector>
 
-#include "dem_scene.hpp"
-#include "kernels/dem/contact/body_field_kern.hpp"
+#include "base/random.hpp"
+#include "dem_bumpy.hpp"
+#include "kernels/dem/contact/near_nodes_kern.hpp"
 
 // Lists of the nodes that may touch (contact_nodes.hpp).
 namespace tread::test
@@ -58,6 +59,59 @@ TYPED_TEST(ContactNodes, GrowWithTheAllowedDisplacement)
     {
         EXPECT_TRUE(clusters.contains(number)) << number;
     }
+}
+
+/// How many nodes were near, and how far from its bound a node was on the wrong side of it, over the rounding.
+struct Compared
+{
+    int    near  = 0;
+    int    far   = 0;
+    double wrong = 0;
+};
+
+void compare(const dem::Side<dem::BodyField>& side, double way, Compared& all)
+{
+    const auto   nodes = dem::near_nodes(side, way);
+    const double bound = side.field.bound_of_node(way);
+    for (std::int32_t i = 0; i < side.owner.shape->node_count; ++i)
+    {
+        const double beyond = side.field(side.node(i)).distance - bound;
+        const bool   near   = nodes.has_node(i);
+        (near ? all.near : all.far) += 1;
+        ASSERT_TRUE(near || beyond > 0) << "a node is missing that is " << -beyond << " m within its bound";
+        if (near) { all.wrong = std::max(all.wrong, beyond / nodes.places.rounding); }
+    }
+}
+
+/// Nodes are found in single precision: none is missing that double precision finds, and those too many are nearer to
+/// their bound than twice what it was raised by. Bodies of unlike size touch anywhere, 1 km from the origin.
+TEST(NearNodes, AreThoseOfDoublePrecisionAndFewMore)
+{
+    const BumpyBody body(40);
+    Counters        counters;
+    Random          random(11);
+    Compared        all;
+    const auto any = [&] { return Vec3<double>(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+    for (int trial = 0; trial < 400; ++trial)
+    {
+        const double       scale = trial % 2 == 0 ? 0.01 : 0.5, other = 0.01;
+        const Vec3<double> apart = random.uniform(0.8, 1.2) * (scale + other) * any().normalized(), far(1000, 0, 0);
+        std::vector<Solid> solids{{.scale = scale, .position = far}, {.scale = other, .position = far + apart}};
+        for (Solid& solid : solids) { solid.orientation = Quat(Eigen::AngleAxisd(3, any().normalized())); }
+        SolidScene<Cpu> scene(Cpu{&counters}, {body.shape(642)}, solids, {});
+        const auto      at = [&](std::int64_t b)
+        { return dem::instance_of(scene.bodies.view(), scene.law().templates, b, solids[0].position); };
+        const dem::Couple                        couple{{at(0), at(1)}};
+        const dem::TwoSides<dem::MeetByDistance> sides{{}, couple};
+        const double                             way = other * random.uniform(0.001, 0.2);
+        compare(sides.first(), way, all);
+        compare(sides.second(), way, all);
+    }
+    std::printf("%d nodes near, %d not; the furthest beyond its bound by %.2f of the rounding\n", all.near, all.far,
+                all.wrong);
+    EXPECT_LE(all.wrong, 2);
+    EXPECT_GT(all.wrong, 0) << "else none was that near to its bound";
+    EXPECT_GT(all.near, 1000);
 }
 
 } // namespace

@@ -79,9 +79,6 @@ struct BodyField
 {
     const Instance& body;
 
-    TREAD_HD double distance_from_centre(const Vec3<double>& y) const { return (y - body.centre).norm(); }
-    TREAD_HD double reach() const { return body.shape->bounding_radius * body.scale; }
-
     /// Upper bound, m, of the field at positions no further than r from the inside.
     TREAD_HD double bound(double r) const
     {
@@ -106,8 +103,6 @@ struct PlaneField
     Vec3<double> normal;
     double       offset; ///< m, relative to the centre of body a
 
-    TREAD_HD double distance_from_centre(const Vec3<double>&) const { return 0; }
-    TREAD_HD double reach() const { return 0; }
     TREAD_HD double bound(double r) const { return r; }
     TREAD_HD double bound_of_node(double way) const { return way; }
 
@@ -131,21 +126,6 @@ struct Side
     TREAD_HD double weight(std::int32_t i) const
     {
         return share * owner.scale * owner.scale * owner.shape->node_areas[i];
-    }
-
-    /// Returns false only if no node of the cluster can enter the other body when the two move by at most `way`
-    /// together (its distance has slope 1).
-    TREAD_HD bool near(std::int32_t cluster, double way) const
-    {
-        const Vec3<double> y = owner.centre + owner.rotation * (owner.scale * owner.shape->cluster_centres[cluster]);
-        const double       r = owner.scale * owner.shape->cluster_radii[cluster] + way;
-        if (field.distance_from_centre(y) > r + field.reach()) { return false; }
-        return field(y).distance <= field.bound(r);
-    }
-
-    TREAD_HD bool near_node(std::int32_t i, double way) const
-    {
-        return field(node(i)).distance <= field.bound_of_node(way);
     }
 };
 

@@ -9,6 +9,10 @@ namespace tread::dem
 /// Number of lanes that share a pair: they process a cluster of nodes at a time.
 constexpr int node_lanes = 32;
 
+/// Blocks a multiprocessor, which limits their registers: more blocks hide more of the loads, until registers are
+/// stored (docs/decisions/010-neighbour-lists.md).
+constexpr int blocks_to_count = 5, blocks_to_write = 7;
+
 template<class Exec>
 void count_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
@@ -16,7 +20,7 @@ void count_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& 
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
-                        for_each_group<node_lanes>(
+                        for_each_group<node_lanes, blocks_to_count>(
                             gpu, "count pair nodes", pairs.key.size(),
                             contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data(), pairs.search.near.data()});
                     });
@@ -29,7 +33,7 @@ void list_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& b
                     [&]<class Meet>(const Meet& meet)
                     {
                         const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
-                        for_each_group<node_lanes>(
+                        for_each_group<node_lanes, blocks_to_write>(
                             gpu, "write pair nodes", pairs.key.size(),
                             contact_nodes::WriteNodes<Meet>{walk, pairs.search.near.data(), pairs.search.counted.data(),
                                                             pairs.nodes.first.data(), pairs.nodes.node.data()});

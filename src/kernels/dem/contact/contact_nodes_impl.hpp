@@ -2,6 +2,7 @@
 
 #include "backend/bits.hpp"
 #include "kernels/dem/contact/contact_nodes.hpp"
+#include "kernels/dem/contact/near_nodes_kern.hpp"
 #include "kernels/dem/contact/ray_field_kern.hpp"
 #include "kernels/dem/contact/sphere_contact_kern.hpp"
 #include "kernels/dem/pairs/pairs_kern.hpp"
@@ -53,14 +54,14 @@ struct Write
 };
 
 /// Calls take(cluster, lanes) for every cluster with nodes that may enter; all lanes take part.
-template<class Field, class Lanes, class Take>
-TREAD_HD void walk(const Side<Field>& side, double way, const Lanes& lanes, Take& take)
+template<class Near, class Lanes, class Take>
+TREAD_HD void walk(const Near& side, const Lanes& lanes, Take& take)
 {
-    const std::int32_t clusters = side.owner.shape->cluster_count, nodes = side.owner.shape->node_count;
+    const std::int32_t clusters = side.shape->cluster_count, nodes = side.shape->node_count;
     for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
     {
         const std::int32_t own  = base + lanes.lane();
-        std::uint32_t      near = lanes.vote(own < clusters && side.near(own, way));
+        std::uint32_t      near = lanes.vote(own < clusters && side.has_cluster(own));
         for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
         {
             if ((near & 1u) == 0) { continue; }
@@ -68,7 +69,7 @@ TREAD_HD void walk(const Side<Field>& side, double way, const Lanes& lanes, Take
             for (std::int32_t bit = 0; bit < cluster_size; bit += lanes.lanes())
             {
                 const std::int32_t i = cluster * cluster_size + bit + lanes.lane();
-                all |= lanes.vote(i < nodes && side.near_node(i, way)) << bit;
+                all |= lanes.vote(i < nodes && side.has_node(i)) << bit;
             }
             if (all != 0) { take(NearCluster{side.sign > 0 ? cluster : ~cluster, all}, lanes); }
         }
@@ -101,14 +102,15 @@ struct Walk
         if (b >= bodies.count)
         {
             const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
-            walk(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, pairs.allowed.way_of(a), lanes, take);
+            walk(near_nodes(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, pairs.allowed.way_of(a)), lanes, take);
             return;
         }
         couple.body[1] = instance_of(bodies, law.templates, b, bodies.position[a]);
         const TwoSides<Meet> sides{meet, couple};
         const double         together = pair_reach(bodies, law.templates, pairs.allowed, a, b).approach;
-        walk(sides.first(), together, lanes, take);
-        walk(sides.second(), together, lanes, take);
+        const auto           first = near_nodes(sides.first(), together), second = near_nodes(sides.second(), together);
+        walk(first, lanes, take);
+        walk(second, lanes, take);
     }
 };
 

@@ -19,10 +19,7 @@ struct RayField
     const RayView* own;   ///< of the body that owns the nodes
     const RayView* other;
 
-    TREAD_HD double    distance_from_centre(const Vec3<double>& y) const { return solid.distance_from_centre(y); }
-    TREAD_HD double    reach() const { return solid.reach(); }
-    TREAD_HD double    bound(double r) const { return solid.bound(r); }
-    TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return solid(y); }
+    TREAD_HD double bound(double r) const { return solid.bound(r); }
 
     /// Upper bound, m, of the distance field at nodes that cross the true surface, which rays use, when they move by at
     /// most `way`: includes the interpolation error of the field.

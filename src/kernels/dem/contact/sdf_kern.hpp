@@ -21,34 +21,36 @@ inline constexpr std::int32_t brick_shift = 3; ///< a brick has 8 cells along ea
 inline constexpr std::int32_t brick_cells = 1 << brick_shift, brick_nodes = brick_cells + 1;
 
 /// The cell used for interpolation at a position.
+template<class Real>
 struct SdfCell
 {
     const float* low;   ///< its lowest corner; x is contiguous
-    std::int64_t row;   ///< stride along y
-    std::int64_t layer; ///< stride along z
-    Vec3<double> fraction;
+    std::int32_t row;   ///< stride along y
+    std::int32_t layer; ///< stride along z
+    Vec3<Real>   fraction;
     double       inverse_spacing; ///< 1/m
 };
 
 /// Finds the cell of a bricked grid; `index` = its lowest node, `at` = position, both in fine cells.
-TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index, const Vec3<double>& at)
+template<class Real>
+TREAD_HD SdfCell<Real> brick_cell(const TemplateView& shape, const std::int32_t* index, const Vec3<Real>& at)
 {
-    std::int64_t brick[3], inner[3];
+    std::int32_t brick[3], inner[3];
     for (int c = 0; c < 3; ++c)
     {
         brick[c] = index[c] >> brick_shift;
         inner[c] = index[c] & (brick_cells - 1);
     }
-    const std::int64_t nx = shape.sdf.bricks[0], ny = shape.sdf.bricks[1];
+    const std::int32_t nx = shape.sdf.bricks[0], ny = shape.sdf.bricks[1];
     const std::int64_t slot = shape.sdf.slots[brick[0] + nx * (brick[1] + ny * brick[2])];
-    SdfCell            cell;
+    SdfCell<Real>      cell;
     if (slot >= 0)
     {
         cell.row   = brick_nodes;
         cell.layer = brick_nodes * brick_nodes;
         cell.low =
             shape.sdf.values + brick_nodes * cell.layer * slot + inner[0] + cell.row * inner[1] + cell.layer * inner[2];
-        for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
+        for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<Real>(index[c]); }
         cell.inverse_spacing = shape.sdf.inverse_spacing;
         return cell;
     }
@@ -57,14 +59,15 @@ TREAD_HD SdfCell brick_cell(const TemplateView& shape, const std::int32_t* index
     cell.low   = shape.sdf.corners + brick[0] + cell.row * brick[1] + cell.layer * brick[2];
     for (int c = 0; c < 3; ++c)
     {
-        cell.fraction[c] = (at[c] - static_cast<double>(brick_cells * brick[c])) / brick_cells;
+        cell.fraction[c] = (at[c] - static_cast<Real>(brick_cells * brick[c])) / brick_cells;
     }
     cell.inverse_spacing = shape.sdf.inverse_spacing / brick_cells;
     return cell;
 }
 
 /// Finds the cell at `at` spacings from the grid's origin, each component in [0, nodes - 1].
-TREAD_HD SdfCell find_cell(const TemplateView& shape, const Vec3<double>& at)
+template<class Real>
+TREAD_HD SdfCell<Real> find_cell(const TemplateView& shape, const Vec3<Real>& at)
 {
     std::int32_t index[3];
     for (int c = 0; c < 3; ++c)
@@ -74,22 +77,34 @@ TREAD_HD SdfCell find_cell(const TemplateView& shape, const Vec3<double>& at)
         index[c]                = i < last ? i : last;
     }
     if (shape.sdf.slots != nullptr) { return brick_cell(shape, index, at); }
-    SdfCell cell;
+    SdfCell<Real> cell;
     cell.row   = shape.sdf.nodes[0];
     cell.layer = cell.row * shape.sdf.nodes[1];
     cell.low   = shape.sdf.values + index[0] + cell.row * index[1] + cell.layer * index[2];
-    for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<double>(index[c]); }
+    for (int c = 0; c < 3; ++c) { cell.fraction[c] = at[c] - static_cast<Real>(index[c]); }
     cell.inverse_spacing = shape.sdf.inverse_spacing;
     return cell;
+}
+
+/// Returns the interpolant in a cell, m.
+template<class Real>
+TREAD_HD Real interpolate_in(const SdfCell<Real>& cell)
+{
+    const auto mixed   = [](Real low, Real high, Real part) { return low + part * (high - low); };
+    const auto along_x = [&](std::int32_t line)
+    { return mixed(static_cast<Real>(cell.low[line]), static_cast<Real>(cell.low[line + 1]), cell.fraction[0]); };
+    const Real low_z  = mixed(along_x(0), along_x(cell.row), cell.fraction[1]);
+    const Real high_z = mixed(along_x(cell.layer), along_x(cell.layer + cell.row), cell.fraction[1]);
+    return mixed(low_z, high_z, cell.fraction[2]);
 }
 
 /// Returns the interpolant at `at` spacings from the grid's origin, each component in [0, nodes - 1]; gradient per
 /// metre.
 TREAD_HD SdfSample interpolate_sdf(const TemplateView& shape, const Vec3<double>& at)
 {
-    const SdfCell       cell    = find_cell(shape, at);
-    const Vec3<double>& t       = cell.fraction;
-    const auto          along_x = [&](std::int64_t line, double& slope)
+    const SdfCell<double> cell    = find_cell(shape, at);
+    const Vec3<double>&   t       = cell.fraction;
+    const auto            along_x = [&](std::int32_t line, double& slope)
     {
         const double first = static_cast<double>(cell.low[line]);
         slope              = static_cast<double>(cell.low[line + 1]) - first;
