@@ -127,6 +127,61 @@ restitution = 0.8
     EXPECT_NEAR(mesh.force / analytic.force, force, 0.05);
 }
 
+/// A heap of sand that no body touches: it gives the scene sand's steps, and the substeps of bodies in sand.
+constexpr const char* heap_apart = R"(
+[grid]
+spacing = 0.05
+[[material]]
+name = "sand"
+model = "mohr-coulomb"
+density = 1600.0
+young = 1.0e6
+poisson = 0.3
+friction_angle_deg = 30.0
+[[contact]]
+between = ["sand", "stone"]
+friction = 0.3
+[[terrain]]
+material = "sand"
+region = { box = [[0.0, 0.0, 0.0], [0.2, 0.2, 0.1]] }
+)";
+
+/// A ball of 0.1 m, stiff enough to come and go within two steps of sand, meets the floor within a step, amid its
+/// substeps.
+TYPED_TEST(RocksImpact, BesideSandABallBouncesAmidAStep)
+{
+    shape::TriangleMesh ball = shape::icosphere(642, "test");
+    for (Eigen::Vector3d& vertex : ball.vertices) { vertex *= 0.1; }
+    const test::MeshFile        file(ball);
+    test::Experiment<TypeParam> fall(
+        this->exec(),
+        test::rock_domain({2, 2, 1}, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
+            test::stone(1e10, 0, 1) + heap_apart + test::file_shape("ball", file, 0.02, 40) + R"(
+[[body]]
+name = "ball"
+shape = "ball"
+density = 2700.0
+material = "stone"
+position = [1.0, 1.0, 0.102]
+velocity = [0.0, 0.0, -1.0]
+)" + test::phase("fall", 0, 0.01));
+    double       up = 0, down = 0;
+    std::int64_t steps = 0;
+    fall.run(
+        [&](double)
+        {
+            const double speed = fall.simulation().named_bodies()[0].velocity[2];
+            up                 = std::max(up, speed);
+            down               = std::max(down, -speed);
+            ++steps;
+        });
+    const double substeps = static_cast<double>(fall.substeps()) / static_cast<double>(steps);
+    test::report("speed after over that before", up / down, 1, 0.02,
+                 "0.2^2/4 of the energy at either end, as AFaceThatArrivesAtOnceGainsNoEnergy");
+    EXPECT_NEAR(up / down, 1, 0.02);
+    EXPECT_GT(substeps, 4) << "else the ball came and went in steps";
+}
+
 /// A smooth drum that slides, without spin, on a level plane.
 std::string sliding_wheel(double speed)
 {
