@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cmath>
+#include <type_traits>
+
 #include "kernels/dem/contact/ray_field_kern.hpp"
 
 // Which nodes of one body may enter the other before pairs are found again. A list may hold a node too many, so that
@@ -7,9 +10,10 @@
 namespace tread::dem
 {
 
-/// Rounding of a place and of the field there, over the lengths that they are computed from: of a place 6 sqrt(3) times
-/// 2^-24, of the field up to sqrt(3), its steepest slope, times this, and a few 2^-24 of its values.
-inline constexpr double place_rounding = 2e-6;
+/// Upper bound of the rounding of the field at a node, over the lengths that it is computed from: the place is off by
+/// at most 6 sqrt(3) 2^-24 of them, the field by sqrt(3), its steepest slope, times this and by ten 2^-24 of its
+/// values.
+inline constexpr double field_rounding = 2e-6;
 
 /// Places of a body's nodes in the grid of another body's field, in cells.
 struct NodesInGrid
@@ -17,10 +21,10 @@ struct NodesInGrid
     const TemplateView* field;
     Mat3<float>         turn;     ///< cells / m, from the template frame of the nodes' body
     Vec3<float>         shift;    ///< cells
-    double              per_m;    ///< lengths of the field's template over lengths of its body
-    double              rounding; ///< m, of the body
+    double              per_m;    ///< lengths in the field's template over those of its body
+    double              rounding; ///< m, of the field
 
-    /// Returns the bound in the field's template for a bound of the field, m.
+    /// Returns a bound of the field (m), raised by the rounding, as a length in its template.
     TREAD_HD float bound(double of_field) const { return static_cast<float>(per_m * (of_field + rounding)); }
 
     /// Whether the field at a position of the nodes' template is at most `bound`, m of the field's template. Outside
@@ -45,9 +49,9 @@ struct NodesInGrid
 /// Distances of a body's nodes from a wall.
 struct NodesOverWall
 {
-    Vec3<float> normal; ///< in the template frame of the nodes' body, times its scale
-    float       offset; ///< m
-    double      rounding;
+    Vec3<float> normal;   ///< in the template frame of the nodes' body, times its scale
+    float       offset;   ///< m
+    double      rounding; ///< m
 
     TREAD_HD float bound(double of_field) const { return static_cast<float>(of_field + rounding); }
     TREAD_HD bool  is_near(const Vec3<double>& x, float bound) const
@@ -66,7 +70,7 @@ TREAD_HD NodesInGrid place_nodes(const Instance& owner, const BodyField& field)
     const double       width  = body.scale * grid.spacing * (grid.nodes[0] + grid.nodes[1] + grid.nodes[2]);
     return {body.shape, (cells * owner.scale * turned).cast<float>(),
             (cells * apart - grid.inverse_spacing * grid.origin).cast<float>(), body.inverse_scale,
-            place_rounding * (owner.scale * owner.shape->bounding_radius + apart.lpNorm<1>() + width)};
+            field_rounding * (owner.scale * owner.shape->bounding_radius + apart.lpNorm<1>() + width)};
 }
 
 TREAD_HD NodesInGrid place_nodes(const Instance& owner, const RayField& field)
@@ -78,7 +82,7 @@ TREAD_HD NodesOverWall place_nodes(const Instance& owner, const PlaneField& fiel
 {
     const double offset = field.offset - field.normal.dot(owner.centre);
     return {(owner.scale * (owner.rotation.transpose() * field.normal)).cast<float>(), static_cast<float>(offset),
-            place_rounding * (owner.scale * owner.shape->bounding_radius + std::fabs(offset))};
+            field_rounding * (owner.scale * owner.shape->bounding_radius + std::fabs(offset))};
 }
 
 /// The nodes of a side that may enter when the two bodies move by at most `way` together.
