@@ -55,6 +55,25 @@ restitution = {}
                        young, friction, restitution, friction, restitution);
 }
 
+/// A block of sand that no body touches, elastic so that it comes to rest at once: it gives the scene sand's steps, and
+/// the substeps of bodies in sand.
+inline constexpr const char* sand_apart = R"(
+[grid]
+spacing = 0.05
+[[material]]
+name = "sand"
+model = "elastic"
+density = 1600.0
+young = 1.0e6
+poisson = 0.3
+[[contact]]
+between = ["sand", "stone"]
+friction = 0.3
+[[terrain]]
+material = "sand"
+region = { box = [[0.0, 0.0, 0.0], [0.2, 0.2, 0.1]] }
+)";
+
 /// Mesh of a box, 12 triangles.
 inline shape::TriangleMesh box_mesh(const Vec3<double>& half)
 {

@@ -127,25 +127,6 @@ restitution = 0.8
     EXPECT_NEAR(mesh.force / analytic.force, force, 0.05);
 }
 
-/// A heap of sand that no body touches: it gives the scene sand's steps, and the substeps of bodies in sand.
-constexpr const char* heap_apart = R"(
-[grid]
-spacing = 0.05
-[[material]]
-name = "sand"
-model = "mohr-coulomb"
-density = 1600.0
-young = 1.0e6
-poisson = 0.3
-friction_angle_deg = 30.0
-[[contact]]
-between = ["sand", "stone"]
-friction = 0.3
-[[terrain]]
-material = "sand"
-region = { box = [[0.0, 0.0, 0.0], [0.2, 0.2, 0.1]] }
-)";
-
 /// A ball of 0.1 m, stiff enough to come and go within two steps of sand, meets the floor within a step, amid its
 /// substeps.
 TYPED_TEST(RocksImpact, BesideSandABallBouncesAmidAStep)
@@ -156,7 +137,7 @@ TYPED_TEST(RocksImpact, BesideSandABallBouncesAmidAStep)
     test::Experiment<TypeParam> fall(
         this->exec(),
         test::rock_domain({2, 2, 1}, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
-            test::stone(1e10, 0, 1) + heap_apart + test::file_shape("ball", file, 0.02, 40) + R"(
+            test::stone(1e10, 0, 1) + test::sand_apart + test::file_shape("ball", file, 0.02, 40) + R"(
 [[body]]
 name = "ball"
 shape = "ball"
