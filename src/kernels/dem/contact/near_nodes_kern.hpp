@@ -89,13 +89,13 @@ TREAD_HD NodesOverWall place_nodes(const Instance& owner, const PlaneField& fiel
 template<class Field, class Places>
 struct NearNodes
 {
-    const TemplateView* shape; ///< of the nodes' body, as its scale
-    double              scale;
-    double              sign; ///< of the side
+    const TemplateView* shape; ///< of the nodes' body
+    double              scale; ///< of the nodes' body
+    double              sign;  ///< of the side
     Field               field;
     double              way; ///< m
     Places              places;
-    float               bound_of_node;
+    float               bound_of_node; ///< as Places::bound
 
     /// Returns false only if no node of the cluster may enter (the distance of the other body has slope 1).
     TREAD_HD bool has_cluster(std::int32_t cluster) const

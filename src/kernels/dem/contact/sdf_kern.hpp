@@ -20,7 +20,8 @@ struct SdfSample
 inline constexpr std::int32_t brick_shift = 3; ///< a brick has 8 cells along each axis
 inline constexpr std::int32_t brick_cells = 1 << brick_shift, brick_nodes = brick_cells + 1;
 
-/// The cell used for interpolation at a position.
+/// The cell used for interpolation at a position. Strides have 32 bits: grids of more than shape::most_dense_nodes are
+/// in bricks.
 template<class Real>
 struct SdfCell
 {
