@@ -156,25 +156,33 @@ TYPED_TEST(MassScaling, EndsWithItsPhase)
     EXPECT_LT(own.change, 1e-3 * scaled.change);
 }
 
+/// Rocks that are balls, in a grid in the box [low, high].
+std::string balls(int count, double diameter, const std::string& box)
+{
+    return fmt::format(R"(
+[[shape]]
+name = "ball"
+generate = {{ kind = "sphere", nodes = 162 }}
+sdf_cells = 24
+[[rocks]]
+shape = "ball"
+material = "stone"
+count = {}
+diameter = {}
+placement = "grid"
+region = {{ box = {} }}
+)",
+                       count, diameter, box);
+}
+
 constexpr double whole_step = 1.0 / 2048; ///< s, of which steps add up without rounding
 
 /// Two balls of 0.1 m that come to lie beside sand, with inertia of up to nine times for `steps`, then with their own.
 std::string balls_beside_sand(int steps)
 {
     return test::rock_domain({1, 0.4, 0.4}, 0, "x = \"slip\", y = \"slip\", bottom = \"fixed\", top = \"open\"", "") +
-           setting(0.2, 9) + fmt::format("dt = {}\n", whole_step) + test::stone(1e10, 0, 0.2) + test::sand_apart + R"(
-[[shape]]
-name = "ball"
-generate = { kind = "sphere", nodes = 162 }
-sdf_cells = 24
-[[rocks]]
-shape = "ball"
-material = "stone"
-count = 2
-diameter = 0.1
-placement = "grid"
-region = { box = [[0.6, 0.1, 0.0], [0.9, 0.3, 0.12]] }
-)" + test::phase("settle", 0.6, steps * whole_step) +
+           setting(0.2, 9) + fmt::format("dt = {}\n", whole_step) + test::stone(1e10, 0, 0.2) + test::sand_apart +
+           balls(2, 0.1, "[[0.6, 0.1, 0.0], [0.9, 0.3, 0.12]]") + test::phase("settle", 0.6, steps * whole_step) +
            test::phase("lie", 0.6, 16 * whole_step) + "mass_scaling = 1\n";
 }
 
@@ -201,10 +209,11 @@ TYPED_TEST(MassScaling, EndsBetweenMeasuredSteps)
                 else if (first == 0) { first = substeps; }
             });
         unmeasured += measured ? 0 : 1;
+        const double more = static_cast<double>(first) / static_cast<double>(last);
         test::report(fmt::format("substeps of the first step without scaling over the last one's with it, {} and {}",
                                  first, last),
-                     static_cast<double>(first) / static_cast<double>(last), 3, 1, "sqrt(mass_scaling), rounded up");
-        EXPECT_NEAR(static_cast<double>(first) / static_cast<double>(last), 3, 1);
+                     more, 3, 1, "sqrt(mass_scaling), rounded up");
+        EXPECT_NEAR(more, 3, 1);
     }
     EXPECT_GT(unmeasured, 0) << "else nothing was tested";
 }
@@ -213,19 +222,8 @@ TYPED_TEST(MassScaling, EndsBetweenMeasuredSteps)
 std::string ball_that_falls(double share, double mass_scaling)
 {
     return test::rock_domain({0.1, 0.1, 0.1}, 0, "x = \"open\", y = \"open\", bottom = \"fixed\", top = \"open\"", "") +
-           setting(share, mass_scaling) + test::stone(1e7, 0, 1) + R"(
-[[shape]]
-name = "ball"
-generate = { kind = "sphere", nodes = 162 }
-sdf_cells = 24
-[[rocks]]
-shape = "ball"
-material = "stone"
-count = 1
-diameter = 0.02
-placement = "grid"
-region = { box = [[0.03, 0.03, 0.05], [0.07, 0.07, 0.09]] }
-)" + test::phase("fall", 0, 0.2);
+           setting(share, mass_scaling) + test::stone(1e7, 0, 1) +
+           balls(1, 0.02, "[[0.03, 0.03, 0.05], [0.07, 0.07, 0.09]]") + test::phase("fall", 0, 0.2);
 }
 
 /// Inertia that has come stays while the ball is let go.

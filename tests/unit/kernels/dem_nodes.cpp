@@ -69,7 +69,8 @@ struct Compared
     double wrong = 0;
 };
 
-void compare(const dem::Side<dem::BodyField>& side, double way, Compared& all)
+template<class Field>
+void compare(const dem::Side<Field>& side, double way, Compared& all)
 {
     const auto   nodes = dem::near_nodes(side, way);
     const double bound = side.field.bound_of_node(way);
@@ -79,12 +80,14 @@ void compare(const dem::Side<dem::BodyField>& side, double way, Compared& all)
         const bool   near   = nodes.has_node(i);
         (near ? all.near : all.far) += 1;
         ASSERT_TRUE(near || beyond > 0) << "a node is missing that is " << -beyond << " m within its bound";
+        ASSERT_TRUE(beyond > 0 || nodes.has_cluster(i / dem::cluster_size)) << "a cluster is missing";
         if (near) { all.wrong = std::max(all.wrong, beyond / nodes.places.rounding); }
     }
 }
 
 /// Nodes are found in single precision: none is missing that double precision finds, and those too many are nearer to
-/// their bound than twice what it was raised by. Bodies of unlike size touch anywhere, 1 km from the origin.
+/// their bound than twice what it was raised by. Bodies of unlike size touch each other and a wall anywhere, 1 km from
+/// the origin.
 TEST(NearNodes, AreThoseOfDoublePrecisionAndFewMore)
 {
     const BumpyBody body(40);
@@ -106,6 +109,8 @@ TEST(NearNodes, AreThoseOfDoublePrecisionAndFewMore)
         const double                             way = other * random.uniform(0.001, 0.2);
         compare(sides.first(), way, all);
         compare(sides.second(), way, all);
+        const dem::PlaneField wall{any().normalized(), random.uniform(-1, 1) * scale};
+        compare(dem::Side<dem::PlaneField>{couple.body[0], wall, 1.0, 1.0}, way, all);
     }
     std::printf("%d nodes near, %d not; the furthest beyond its bound by %.2f of the rounding\n", all.near, all.far,
                 all.wrong);
