@@ -53,22 +53,37 @@ struct WriteCell
     }
 };
 
+/// Writes the sphere of each body in the order of cells.
+struct WriteSphere
+{
+    BodiesView          bodies;
+    const SearchExtent* extent;
+    const std::int32_t* cell_body;
+    SearchSphere*       sphere;
+
+    TREAD_HD void operator()(std::int64_t i) const
+    {
+        const std::int64_t b = cell_body[i];
+        sphere[i]            = {bodies.position[b], extent[b].radius};
+    }
+};
+
 /// Number of candidates of a part whose test is remembered.
 inline constexpr std::int32_t remembered_candidates = 32;
 
 struct CountPairs
 {
     PairSearch     search;
-    std::int32_t*  found;    ///< [bodies * parts + 1]
-    std::uint32_t* accepted; ///< [bodies * parts]
+    std::int32_t*  found;    ///< [parts + 1]
+    std::uint32_t* accepted; ///< [parts]
 
     TREAD_HD void operator()(std::int64_t i) const
     {
         std::int32_t  own = 0, candidate = 0;
         std::uint32_t near = 0;
-        if (i < search.bodies.count * PairSearch::parts)
+        if (i < search.part_count())
         {
-            search.each_candidate(i / PairSearch::parts, i % PairSearch::parts,
+            search.each_candidate(PairSearch::part_of(i),
                                   [&](std::uint64_t, const auto& is_near)
                                   {
                                       const bool found_near = is_near();
@@ -88,15 +103,15 @@ struct CountPairs
 struct WritePairs
 {
     PairSearch           search;
-    const std::int32_t*  found;    ///< [bodies * parts + 1], after the scan
-    const std::uint32_t* accepted; ///< [bodies * parts]
+    const std::int32_t*  found;    ///< [parts + 1], after the scan
+    const std::uint32_t* accepted; ///< [parts]
     std::uint64_t*       key;
 
     TREAD_HD void operator()(std::int64_t i) const
     {
         std::int32_t place = found[i], candidate = 0;
         if (place == found[i + 1]) { return; }
-        search.each_candidate(i / PairSearch::parts, i % PairSearch::parts,
+        search.each_candidate(PairSearch::part_of(i),
                               [&](std::uint64_t pair, const auto& is_near)
                               {
                                   const bool near = candidate < remembered_candidates
@@ -137,6 +152,10 @@ double fill_cells(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies
              WriteCell{bodies, pairs.sizes.is_large.data(), cell_size, pairs.search.cell_key.data(),
                        pairs.search.cell_body.data()});
     sort_by_key(exec, pairs.search.cell_key, pairs.search.cell_body, pairs.sort);
+    pairs.search.sphere.resize(bodies.count);
+    for_each(exec, "body search spheres", bodies.count,
+             WriteSphere{bodies, reinterpret_cast<const SearchExtent*>(pairs.search.extent.data()),
+                         pairs.search.cell_body.data(), pairs.search.sphere.data()});
     return cell_size;
 }
 
@@ -150,6 +169,7 @@ PairSearch make_search(const Pairs<Exec>& pairs, const BodiesView& bodies, const
             cell_size,
             pairs.search.cell_key.data(),
             pairs.search.cell_body.data(),
+            pairs.search.sphere.data(),
             pairs.sizes.large.data(),
             pairs.sizes.large.size(),
             pairs.sizes.is_large.data(),
@@ -161,7 +181,7 @@ template<class Exec>
 void search(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law, double cell_size)
 {
     const PairSearch   search = make_search(pairs, bodies, law, cell_size);
-    const std::int64_t items  = bodies.count * PairSearch::parts;
+    const std::int64_t items  = search.part_count();
     pairs.search.found.resize(items + 1);
     pairs.search.accepted.resize(items);
     for_each(exec, "count pairs", items + 1,

@@ -195,6 +195,19 @@ struct NearCluster
 /// clusters as this, or more, are looked for twice.
 inline constexpr std::int32_t near_clusters = 8;
 
+/// Sphere that no point of a body leaves until the pairs are found again.
+struct SearchSphere
+{
+    Vec3<double> centre; ///< m
+    double       radius; ///< m
+
+    TREAD_HD bool meets(const SearchSphere& other) const
+    {
+        const double together = radius + other.radius;
+        return (centre - other.centre).squaredNorm() <= together * together;
+    }
+};
+
 /// Scratch memory of the search by cells of a grid.
 template<class Exec>
 struct PairSearchScratch
@@ -203,6 +216,7 @@ struct PairSearchScratch
         : extent(exec, "body search radii")
         , cell_key(exec, "body cells")
         , cell_body(exec, "bodies by cell")
+        , sphere(exec, "body search spheres")
         , found(exec, "pairs found")
         , accepted(exec, "pairs accepted")
         , second_key(exec, "pair second bodies")
@@ -214,8 +228,9 @@ struct PairSearchScratch
     Array<Exec, double>        extent;   ///< SearchExtent of each body, and the maximum
     Array<Exec, std::uint64_t> cell_key; ///< ascending
     Array<Exec, std::int32_t>  cell_body;
+    Array<Exec, SearchSphere>  sphere; ///< of the bodies of cell_body
     Array<Exec, std::int32_t>  found;
-    Array<Exec, std::uint32_t> accepted; ///< per body and part: the candidates found near, a bit each
+    Array<Exec, std::uint32_t> accepted; ///< per part of the search: the candidates found near, a bit each
     Array<Exec, std::uint64_t> second_key;
     Array<Exec, NearCluster>   near;    ///< [pairs * near_clusters], up to the first without nodes; 0 last if complete
     Array<Exec, std::int32_t>  counted; ///< place of each pair in `near`

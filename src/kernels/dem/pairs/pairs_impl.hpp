@@ -349,8 +349,8 @@ void list_pairs(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, 
     if (pairs.sleep.wakes) { wake_bodies(exec, pairs, bodies, law, cell_size); }
     search(exec, pairs, bodies, law, cell_size);
     release_memory(pairs.search.extent, pairs.displacement.speed, pairs.displacement.wander,
-                   pairs.displacement.per_step, pairs.search.cell_key, pairs.search.cell_body, pairs.search.found,
-                   pairs.search.accepted);
+                   pairs.displacement.per_step, pairs.search.cell_key, pairs.search.cell_body, pairs.search.sphere,
+                   pairs.search.found, pairs.search.accepted);
     keep_pairs_with_nodes(exec, pairs, bodies, law);
     order_pairs(exec, pairs, bodies);
     if (pairs.patches.wanted) { split_patches(exec, pairs, bodies, law); }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "backend/bits.hpp"
 #include "kernels/dem/pairs/pairs.hpp"
 
 namespace tread::dem
@@ -149,7 +150,8 @@ struct PairSearch
     AllowedMotion        allowed;
     double               cell_size; ///< m, at least twice the maximum search radius in the grid
     const std::uint64_t* cell_key;  ///< ascending
-    const std::int32_t*  cell_body;
+    const std::int32_t*  cell_body; ///< every body, those in the grid in the order of their cells
+    const SearchSphere*  sphere;    ///< of the bodies of cell_body
     const std::int32_t*  large;
     std::int64_t         large_count;
     const std::int32_t*  is_large;
@@ -181,11 +183,33 @@ struct PairSearch
     /// Parts of a body's search: the rows of cells around its own cell, and everything that is not in the cell grid.
     static constexpr std::int64_t cell_rows = 9, parts = cell_rows + 1;
 
+    /// One part of the search of the body at a place of cell_body.
+    struct Part
+    {
+        std::int64_t place;
+        std::int64_t part;
+    };
+
+    /// Number of bodies, one after the other in cell_body, whose parts have numbers one after the other, too: a warp
+    /// looks for all of them through much the same row.
+    static constexpr std::int64_t together = 32;
+
+    TREAD_HD std::int64_t part_count() const { return (bodies.count + together - 1) / together * together * parts; }
+
+    /// Returns the part with a number in [0, part_count); some have no body.
+    TREAD_HD static Part part_of(std::int64_t i)
+    {
+        const std::int64_t group = i / (together * parts);
+        return {group * together + i % together, i / together % parts};
+    }
+
+    TREAD_HD bool has_body(const Part& part) const { return part.place < bodies.count; }
+
     /// Calls visit(key) for each pair that may touch.
     template<class Visit>
-    TREAD_HD void operator()(std::int64_t a, std::int64_t part, Visit visit) const
+    TREAD_HD void operator()(const Part& part, Visit visit) const
     {
-        each_candidate(a, part,
+        each_candidate(part,
                        [&](std::uint64_t pair, const auto& is_near)
                        {
                            if (is_near()) { visit(pair); }
@@ -195,28 +219,41 @@ struct PairSearch
     /// Calls visit(key, is_near) for each pair that is not ruled out at once, in the same order each time; is_near()
     /// tells whether it may touch.
     template<class Visit>
-    TREAD_HD void each_candidate(std::int64_t a, std::int64_t part, Visit visit) const
+    TREAD_HD void each_candidate(const Part& part, Visit visit) const
     {
+        if (!has_body(part)) { return; }
+        const std::int64_t a = cell_body[part.place];
         if (!bodies.is_here(a)) { return; }
-        if (part == cell_rows) { beside_cells(a, visit); }
-        else if (is_large[a] == 0 && !bodies.is_asleep(a)) { in_row(a, part, visit); }
+        if (part.part == cell_rows) { beside_cells(a, visit); }
+        else if (is_large[a] == 0 && !bodies.is_asleep(a)) { in_row(part.place, part.part, visit); }
     }
 
 private:
+    /// Whether the pair of these bodies in the grid is found from the first of them, which is awake.
+    TREAD_HD bool found_from(std::int64_t a, std::int64_t b) const { return b > a || (b < a && bodies.is_asleep(b)); }
+
     template<class Visit>
-    TREAD_HD void in_row(std::int64_t a, std::int64_t row, Visit& visit) const
+    TREAD_HD void in_row(std::int64_t place, std::int64_t row, Visit& visit) const
     {
-        const Vec3<double>& position = bodies.position[a];
-        const std::int64_t  x        = cell_coordinate(position[0], cell_size),
-                           y         = cell_coordinate(position[1], cell_size) + row % 3 - 1,
-                           z         = cell_coordinate(position[2], cell_size) + row / 3 - 1;
-        const std::int64_t  gridded  = bodies.count - large_count;
-        const std::uint64_t last     = cell_key_of(x + 1, y, z);
-        for (std::int64_t i = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
-             i < gridded && cell_key[i] <= last; ++i)
+        const SearchSphere own      = sphere[place];
+        const std::int64_t a        = cell_body[place];
+        const std::int64_t x        = cell_coordinate(own.centre[0], cell_size),
+                           y        = cell_coordinate(own.centre[1], cell_size) + row % 3 - 1,
+                           z        = cell_coordinate(own.centre[2], cell_size) + row / 3 - 1;
+        const std::int64_t  gridded = bodies.count - large_count;
+        const std::uint64_t last    = cell_key_of(x + 1, y, z);
+        std::int64_t        i       = lower_bound(cell_key, gridded, cell_key_of(x - 1, y, z));
+        while (i < gridded && cell_key[i] <= last)
         {
-            const std::int64_t b = cell_body[i];
-            if (b > a || (b < a && bodies.is_asleep(b))) { visit_pair(a, b, visit); }
+            // All threads of a warp test spheres, and then all test pairs.
+            const std::int64_t begin = i;
+            std::uint32_t      met   = 0;
+            for (; i < begin + 32 && i < gridded && cell_key[i] <= last; ++i)
+            {
+                const bool meets = found_from(a, cell_body[i]) && own.meets(sphere[i]);
+                met |= std::uint32_t{meets} << (i - begin);
+            }
+            for (; met != 0; met &= met - 1) { visit_pair(a, cell_body[begin + lowest_bit(met)], visit); }
         }
     }
 

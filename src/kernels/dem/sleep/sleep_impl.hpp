@@ -169,8 +169,8 @@ void wake_bodies(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies,
     SleepingBodies<Exec>& sleep = pairs.sleep;
     if (sleep.count == 0 && !sleep.change) { return; }
     if (sleep.change) { order_contacts(exec, pairs, bodies); }
-    for_each(exec, "mark sleepers near", bodies.count * PairSearch::parts,
-             MarkNear{pair_steps::make_search(pairs, bodies, law, cell_size), sleep.moves.data(), sleep.mark.data()});
+    const PairSearch search = pair_steps::make_search(pairs, bodies, law, cell_size);
+    for_each(exec, "mark sleepers near", search.part_count(), MarkNear{search, sleep.moves.data(), sleep.mark.data()});
     agree_on(exec, sleep, sleep.mark);
     for (int ring = 0; ring < waking_rings; ++ring)
     {

@@ -197,9 +197,13 @@ struct MarkNear
 
     TREAD_HD void operator()(std::int64_t i) const
     {
-        const std::int64_t a = i / PairSearch::parts, part = i % PairSearch::parts;
-        if (part < PairSearch::cell_rows && !is_moving(search.bodies, moves, a)) { return; }
-        search(a, part, [&](std::uint64_t key) { meet(first_of(key), second_of(key)); });
+        const PairSearch::Part part = PairSearch::part_of(i);
+        if (!search.has_body(part)) { return; }
+        if (part.part < PairSearch::cell_rows && !is_moving(search.bodies, moves, search.cell_body[part.place]))
+        {
+            return;
+        }
+        search(part, [&](std::uint64_t key) { meet(first_of(key), second_of(key)); });
     }
 
 private:
