@@ -70,10 +70,11 @@ struct Compared
 };
 
 template<class Field>
-void compare(const dem::Side<Field>& side, double way, Compared& all)
+void compare(const dem::Side<Field>& side, const dem::TemplateView* other, double way, Compared& all)
 {
-    const auto   nodes = dem::near_nodes(side, way);
-    const double bound = side.field.bound_of_node(way);
+    const dem::PlacedNodes placed = dem::place_nodes(side, way);
+    const dem::NearNodes   nodes  = dem::near_nodes(side.owner.shape, other, placed);
+    const double           bound  = side.field.bound_of_node(way);
     for (std::int32_t i = 0; i < side.owner.shape->node_count; ++i)
     {
         const double beyond = side.field(side.node(i)).distance - bound;
@@ -81,7 +82,7 @@ void compare(const dem::Side<Field>& side, double way, Compared& all)
         (near ? all.near : all.far) += 1;
         ASSERT_TRUE(near || beyond > 0) << "a node is missing that is " << -beyond << " m within its bound";
         ASSERT_TRUE(beyond > 0 || nodes.has_cluster(i / dem::cluster_size)) << "a cluster is missing";
-        if (near) { all.wrong = std::max(all.wrong, beyond / nodes.places.rounding); }
+        if (near) { all.wrong = std::max(all.wrong, beyond / placed.rounding); }
     }
 }
 
@@ -107,10 +108,10 @@ TEST(NearNodes, AreThoseOfDoublePrecisionAndFewMore)
         const dem::Couple                        couple{{at(0), at(1)}};
         const dem::TwoSides<dem::MeetByDistance> sides{{}, couple};
         const double                             way = other * random.uniform(0.001, 0.2);
-        compare(sides.first(), way, all);
-        compare(sides.second(), way, all);
+        compare(sides.first(), couple.body[1].shape, way, all);
+        compare(sides.second(), couple.body[0].shape, way, all);
         const dem::PlaneField wall{any().normalized(), random.uniform(-1, 1) * scale};
-        compare(dem::Side<dem::PlaneField>{couple.body[0], wall, 1.0, 1.0}, way, all);
+        compare(dem::Side<dem::PlaneField>{couple.body[0], wall, 1.0, 1.0}, nullptr, way, all);
     }
     std::printf("%d nodes near, %d not; the furthest beyond its bound by %.2f of the rounding\n", all.near, all.far,
                 all.wrong);

@@ -294,9 +294,10 @@ TYPED_TEST(BodyPairs, LeaveNothingOfTheSearchBehind)
     scene.find(step);
     scene.find(step); // who drifts depends on the last list, and is the same with every second
     EXPECT_EQ(this->counters.current_bytes(), held);
-    for (const char* name : {"body search radii", "body speeds", "body speeds beside drifts",
-                             "body displacement a step more", "body cells", "bodies by cell", "body search spheres",
-                             "pairs found", "pairs accepted", "near clusters", "pairs counted", "sort scratch"})
+    for (const char* name :
+         {"body search radii", "body speeds", "body speeds beside drifts", "body displacement a step more",
+          "body cells", "bodies by cell", "body search spheres", "pairs found", "pairs accepted", "placed nodes",
+          "near clusters", "pairs counted", "sort scratch"})
     {
         EXPECT_EQ(this->counters.bytes().find(name)->second, 0) << name;
     }

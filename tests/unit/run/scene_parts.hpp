@@ -212,7 +212,8 @@ inline const Part named_bodies = {{"contact impulses", "shares of weight"}, {}};
 inline const Part concave_bodies = {{"patches of pairs"}, {"group pair nodes", "pairs of several patches"}};
 
 /// Bodies near each other or a wall.
-inline const Part pairs = {{"last pair keys", "near clusters", "pair keys"}, {"count pair nodes", "keep pairs"}};
+inline const Part pairs = {{"last pair keys", "near clusters", "pair keys", "placed nodes"},
+                           {"count pair nodes", "keep pairs", "place pair nodes"}};
 
 /// All substeps run without sand.
 inline const Part pairs_without_sand = {{"pair second bodies"}, {}};

@@ -79,13 +79,6 @@ struct BodyField
 {
     const Instance& body;
 
-    /// Upper bound, m, of the field at positions no further than r from the inside.
-    TREAD_HD double bound(double r) const
-    {
-        const double furthest = r + surface_uncertainty(*body.shape, body.scale);
-        return furthest + sdf_uncertainty(*body.shape, body.scale, furthest);
-    }
-
     /// Upper bound, m, of the field at positions that enter the body when they move by at most `way`.
     TREAD_HD double bound_of_node(double way) const { return approach_bound(*body.shape, body.scale, way); }
 
@@ -103,7 +96,6 @@ struct PlaneField
     Vec3<double> normal;
     double       offset; ///< m, relative to the centre of body a
 
-    TREAD_HD double bound(double r) const { return r; }
     TREAD_HD double bound_of_node(double way) const { return way; }
 
     TREAD_HD SdfSample operator()(const Vec3<double>& y) const { return {normal.dot(y) - offset, normal}; }

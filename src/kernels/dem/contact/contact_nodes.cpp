@@ -20,28 +20,14 @@ void for_each_pair(const Cpu& cpu, const char* name, std::int64_t pairs, const I
 template<class Exec>
 void count_contact_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    by_narrow_phase(law,
-                    [&]<class Meet>(const Meet& meet)
-                    {
-                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
-                        for_each_pair(
-                            cpu, "count pair nodes", pairs.key.size(),
-                            contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data(), pairs.search.near.data()});
-                    });
+    place_pair_nodes(cpu, pairs, bodies, law);
+    for_each_pair(cpu, "count pair nodes", pairs.key.size(), counting_of_nodes(pairs, bodies, law));
 }
 
 template<class Exec>
 void list_contact_nodes(const Exec& cpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    by_narrow_phase(law,
-                    [&]<class Meet>(const Meet& meet)
-                    {
-                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
-                        for_each_pair(
-                            cpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes<Meet>{walk, pairs.search.near.data(), pairs.search.counted.data(),
-                                                            pairs.nodes.first.data(), pairs.nodes.node.data()});
-                    });
+    for_each_pair(cpu, "write pair nodes", pairs.key.size(), writing_of_nodes(pairs, bodies, law));
 }
 
 /// Nothing to list: one lane handles any pair.

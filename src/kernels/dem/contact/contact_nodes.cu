@@ -16,28 +16,16 @@ constexpr int blocks_to_count = 5, blocks_to_write = 7;
 template<class Exec>
 void count_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    by_narrow_phase(law,
-                    [&]<class Meet>(const Meet& meet)
-                    {
-                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
-                        for_each_group<node_lanes, blocks_to_count>(
-                            gpu, "count pair nodes", pairs.key.size(),
-                            contact_nodes::CountNodes<Meet>{walk, pairs.nodes.first.data(), pairs.search.near.data()});
-                    });
+    place_pair_nodes(gpu, pairs, bodies, law);
+    for_each_group<node_lanes, blocks_to_count>(gpu, "count pair nodes", pairs.key.size(),
+                                                counting_of_nodes(pairs, bodies, law));
 }
 
 template<class Exec>
 void list_contact_nodes(const Exec& gpu, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
 {
-    by_narrow_phase(law,
-                    [&]<class Meet>(const Meet& meet)
-                    {
-                        const contact_nodes::Walk<Meet> walk{meet, bodies, law, pairs.view()};
-                        for_each_group<node_lanes, blocks_to_write>(
-                            gpu, "write pair nodes", pairs.key.size(),
-                            contact_nodes::WriteNodes<Meet>{walk, pairs.search.near.data(), pairs.search.counted.data(),
-                                                            pairs.nodes.first.data(), pairs.nodes.node.data()});
-                    });
+    for_each_group<node_lanes, blocks_to_write>(gpu, "write pair nodes", pairs.key.size(),
+                                                writing_of_nodes(pairs, bodies, law));
 }
 
 namespace

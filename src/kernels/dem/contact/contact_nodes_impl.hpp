@@ -53,89 +53,114 @@ struct Write
     }
 };
 
-/// Calls take(cluster, lanes) for every cluster with nodes that may enter; all lanes take part.
-template<class Near, class Lanes, class Take>
-TREAD_HD void walk(const Near& side, const Lanes& lanes, Take& take)
+/// Whether a pair consists of two exact spheres, or of one and a wall.
+TREAD_HD bool closed_form(const BodiesView& bodies, const BodyLaw& law, std::uint64_t key)
 {
-    const std::int32_t clusters = side.shape->cluster_count, nodes = side.shape->node_count;
-    for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
-    {
-        const std::int32_t own  = base + lanes.lane();
-        std::uint32_t      near = lanes.vote(own < clusters && side.has_cluster(own));
-        for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
-        {
-            if ((near & 1u) == 0) { continue; }
-            std::uint32_t all = 0;
-            for (std::int32_t bit = 0; bit < cluster_size; bit += lanes.lanes())
-            {
-                const std::int32_t i = cluster * cluster_size + bit + lanes.lane();
-                all |= lanes.vote(i < nodes && side.has_node(i)) << bit;
-            }
-            if (all != 0) { take(NearCluster{side.sign > 0 ? cluster : ~cluster, all}, lanes); }
-        }
-    }
+    const auto is_sphere = [&](std::int64_t b) { return law.templates[bodies.shape[b]].sphere_radius > 0; };
+    return is_sphere(first_of(key)) && (second_of(key) >= bodies.count || is_sphere(second_of(key)));
 }
 
+/// Places the nodes of both sides of a pair.
 template<class Meet>
-struct Walk
+struct PlaceNodes
 {
-    Meet       meet;
-    BodiesView bodies;
-    BodyLaw    law;
-    PairsView  pairs;
+    Meet         meet;
+    BodiesView   bodies;
+    BodyLaw      law;
+    PairsView    pairs;
+    PlacedNodes* placed; ///< [2 * pairs]
 
-    /// Whether the pair consists of two exact spheres, or of one and a wall.
-    TREAD_HD bool closed_form(std::int64_t p) const
+    TREAD_HD void operator()(std::int64_t p) const
     {
-        const std::int64_t b = second_of(pairs.key[p]);
-        return is_sphere(first_of(pairs.key[p])) && (b >= bodies.count || is_sphere(b));
-    }
-
-    TREAD_HD bool is_sphere(std::int64_t b) const { return law.templates[bodies.shape[b]].sphere_radius > 0; }
-
-    template<class Lanes, class Take>
-    TREAD_HD void operator()(std::int64_t p, const Lanes& lanes, Take& take) const
-    {
-        const std::int64_t a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const std::uint64_t key = pairs.key[p];
+        if (closed_form(bodies, law, key)) { return; }
+        const std::int64_t a = first_of(key), b = second_of(key);
         Couple             couple;
         couple.body[0] = instance_of(bodies, law.templates, a, bodies.position[a]);
         if (b >= bodies.count)
         {
             const PlaneField wall = field_of(law.planes[b - bodies.count], bodies.position[a]);
-            walk(near_nodes(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, pairs.allowed.way_of(a)), lanes, take);
+            placed[2 * p] = place_nodes(Side<PlaneField>{couple.body[0], wall, 1.0, 1.0}, pairs.allowed.way_of(a));
             return;
         }
         couple.body[1] = instance_of(bodies, law.templates, b, bodies.position[a]);
         const TwoSides<Meet> sides{meet, couple};
         const double         together = pair_reach(bodies, law.templates, pairs.allowed, a, b).approach;
-        const auto           first = near_nodes(sides.first(), together), second = near_nodes(sides.second(), together);
-        walk(first, lanes, take);
-        walk(second, lanes, take);
+        placed[2 * p]                 = place_nodes(sides.first(), together);
+        placed[2 * p + 1]             = place_nodes(sides.second(), together);
     }
 };
 
-template<class Meet>
+/// Walks through the clusters of a pair with nodes that may enter.
+struct Walk
+{
+    BodiesView         bodies;
+    BodyLaw            law;
+    PairsView          pairs;
+    const PlacedNodes* placed; ///< [2 * pairs], of the pairs as they were counted
+
+    /// Calls take(cluster, lanes) for each of them; all lanes take part. `counted`: place of the pair when it was
+    /// counted.
+    template<class Lanes, class Take>
+    TREAD_HD void operator()(std::int64_t p, std::int64_t counted, const Lanes& lanes, Take& take) const
+    {
+        const std::int64_t  a = first_of(pairs.key[p]), b = second_of(pairs.key[p]);
+        const TemplateView* first  = law.templates + bodies.shape[a];
+        const TemplateView* second = b < bodies.count ? law.templates + bodies.shape[b] : nullptr;
+        walk(near_nodes(first, second, placed[2 * counted]), Owner::first, lanes, take);
+        if (second != nullptr) { walk(near_nodes(second, first, placed[2 * counted + 1]), Owner::second, lanes, take); }
+    }
+
+private:
+    enum class Owner : std::int8_t
+    {
+        first,
+        second
+    };
+
+    template<class Lanes, class Take>
+    TREAD_HD static void walk(const NearNodes& side, Owner owner, const Lanes& lanes, Take& take)
+    {
+        const std::int32_t clusters = side.shape->cluster_count, nodes = side.shape->node_count;
+        for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
+        {
+            const std::int32_t own  = base + lanes.lane();
+            std::uint32_t      near = lanes.vote(own < clusters && side.has_cluster(own));
+            for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
+            {
+                if ((near & 1u) == 0) { continue; }
+                std::uint32_t all = 0;
+                for (std::int32_t bit = 0; bit < cluster_size; bit += lanes.lanes())
+                {
+                    const std::int32_t i = cluster * cluster_size + bit + lanes.lane();
+                    all |= lanes.vote(i < nodes && side.has_node(i)) << bit;
+                }
+                if (all != 0) { take(NearCluster{owner == Owner::first ? cluster : ~cluster, all}, lanes); }
+            }
+        }
+    }
+};
+
 struct CountNodes
 {
-    Walk<Meet>    walk;
+    Walk          walk;
     std::int32_t* found; ///< [pairs]
     NearCluster*  near;  ///< [pairs * near_clusters]
 
     template<class Lanes>
     TREAD_HD void operator()(std::int64_t p, const Lanes& lanes) const
     {
-        const bool closed_form = walk.closed_form(p);
+        const bool exact = closed_form(walk.bodies, walk.law, walk.pairs.key[p]);
         Count      count{near + p * near_clusters};
-        if (!closed_form) { walk(p, lanes, count); }
+        if (!exact) { walk(p, p, lanes, count); }
         count.end(lanes);
-        if (lanes.lane() == 0) { found[p] = closed_form ? without_nodes : count.found; }
+        if (lanes.lane() == 0) { found[p] = exact ? without_nodes : count.found; }
     }
 };
 
-template<class Meet>
 struct WriteNodes
 {
-    Walk<Meet>          walk;
+    Walk                walk;
     const NearCluster*  near;    ///< as CountNodes has recorded it
     const std::int32_t* counted; ///< [pairs], where a pair was when it was counted
     const std::int32_t* first;   ///< [pairs + 1]
@@ -149,7 +174,7 @@ struct WriteNodes
         const NearCluster* record = near + std::int64_t{counted[p]} * near_clusters;
         if (record[near_clusters - 1].nodes != 0) // as many as there is room for, or more
         {
-            walk(p, lanes, write);
+            walk(p, counted[p], lanes, write);
             return;
         }
         for (std::int32_t c = 0; record[c].nodes != 0; ++c) { write(record[c], lanes); }
@@ -203,3 +228,38 @@ private:
 };
 
 } // namespace tread::dem::contact_nodes
+
+namespace tread::dem
+{
+
+/// Places the nodes of every pair.
+template<class Exec>
+void place_pair_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    by_narrow_phase(
+        law,
+        [&]<class Meet>(const Meet& meet)
+        {
+            for_each(exec, "place pair nodes", pairs.key.size(),
+                     contact_nodes::PlaceNodes<Meet>{meet, bodies, law, pairs.view(), pairs.search.placed.data()});
+        });
+}
+
+template<class Exec>
+contact_nodes::CountNodes counting_of_nodes(Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    return {
+        {bodies, law, pairs.view(), pairs.search.placed.data()}, pairs.nodes.first.data(), pairs.search.near.data()};
+}
+
+template<class Exec>
+contact_nodes::WriteNodes writing_of_nodes(Pairs<Exec>& pairs, const BodiesView& bodies, const BodyLaw& law)
+{
+    return {{bodies, law, pairs.view(), pairs.search.placed.data()},
+            pairs.search.near.data(),
+            pairs.search.counted.data(),
+            pairs.nodes.first.data(),
+            pairs.nodes.node.data()};
+}
+
+} // namespace tread::dem

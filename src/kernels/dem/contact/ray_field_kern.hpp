@@ -19,8 +19,6 @@ struct RayField
     const RayView* own;   ///< of the body that owns the nodes
     const RayView* other;
 
-    TREAD_HD double bound(double r) const { return solid.bound(r); }
-
     /// Upper bound, m, of the distance field at nodes that cross the true surface, which rays use, when they move by at
     /// most `way`: includes the interpolation error of the field.
     TREAD_HD double bound_of_node(double way) const

@@ -179,6 +179,13 @@ TREAD_HD double sdf_uncertainty(const TemplateView& shape, double scale, double 
     return cell_uncertainty((fine ? 1 : brick_cells) * shape.sdf.spacing) * scale;
 }
 
+/// Upper bound of the interpolant, m, at positions no further than r (m, true) outside the surface.
+TREAD_HD double bound_within(const TemplateView& shape, double scale, double r)
+{
+    const double furthest = r + surface_uncertainty(shape, scale);
+    return furthest + sdf_uncertainty(shape, scale, furthest);
+}
+
 /// Upper bound of the interpolant at every position from which a point can come within `radius` of the interpolated
 /// surface when it moves by at most half of `displacement`, m, and at every nearer position.
 /// The slope of the interpolant is at most sqrt(3) where cells are exact: there radius + displacement is a bound. A

@@ -191,6 +191,19 @@ struct NearCluster
     TREAD_HD std::int32_t index() const { return first_body() ? name : ~name; }
 };
 
+/// Where a body's nodes lie in the field of the other body of a pair, or of a wall: `turn` and `shift` take a place in
+/// their template's frame into the cells of the other template's grid, or make its distance from the wall (m) their
+/// first component. Lengths are in the other template, or in the world.
+struct alignas(16) PlacedNodes
+{
+    Mat3<float> turn;     ///< cells / m
+    Vec3<float> shift;    ///< cells
+    float       bound;    ///< of the field at a node that may enter
+    float       scale;    ///< over lengths of the nodes' template
+    float       way;      ///< that nodes may come nearer, with the rounding
+    float       rounding; ///< m, of the field
+};
+
 /// Room for the clusters that are recorded for a pair, and for the end of the record; the nodes of a pair with as many
 /// clusters as this, or more, are looked for twice.
 inline constexpr std::int32_t near_clusters = 8;
@@ -220,6 +233,7 @@ struct PairSearchScratch
         , found(exec, "pairs found")
         , accepted(exec, "pairs accepted")
         , second_key(exec, "pair second bodies")
+        , placed(exec, "placed nodes")
         , near(exec, "near clusters")
         , counted(exec, "pairs counted")
     {
@@ -232,6 +246,7 @@ struct PairSearchScratch
     Array<Exec, std::int32_t>  found;
     Array<Exec, std::uint32_t> accepted; ///< per part of the search: the candidates found near, a bit each
     Array<Exec, std::uint64_t> second_key;
+    Array<Exec, PlacedNodes>   placed;  ///< [2 * pairs], of the first body, then the second
     Array<Exec, NearCluster>   near;    ///< [pairs * near_clusters], up to the first without nodes; 0 last if complete
     Array<Exec, std::int32_t>  counted; ///< place of each pair in `near`
 };

@@ -232,6 +232,7 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
     const std::int64_t count = pairs.key.size();
     pairs.nodes.first.resize(count + 1);
     pairs.search.near.resize(count * near_clusters);
+    pairs.search.placed.resize(2 * count);
     count_contact_nodes(exec, pairs, bodies, law);
     pairs.search.found.resize(count + 1);
     for_each(exec, "mark pairs", count + 1, MarkPairs{count, pairs.nodes.first.data(), pairs.search.found.data()});
@@ -251,7 +252,7 @@ void keep_pairs_with_nodes(const Exec& exec, Pairs<Exec>& pairs, const BodiesVie
     pairs.nodes.first.swap(pairs.of_body.by_second);
     pairs.nodes.node.resize(exclusive_scan(exec, pairs.nodes.first, pairs.sort));
     list_contact_nodes(exec, pairs, bodies, law);
-    release_memory(pairs.of_body.by_second, pairs.search.near, pairs.search.counted);
+    release_memory(pairs.of_body.by_second, pairs.search.placed, pairs.search.near, pairs.search.counted);
 }
 
 /// Releases the substeps' memory of a list.

@@ -95,11 +95,10 @@ TREAD_HD bool may_touch(const BodiesView& bodies, const TemplateView* templates,
 TREAD_HD bool surface_near(const BodiesView& bodies, const TemplateView* templates, std::int64_t b,
                            const Vec3<double>& centre, double reach)
 {
-    const TemplateView& shape    = templates[bodies.shape[b]];
-    const double        scale    = bodies.scale[b];
-    const double        furthest = reach + surface_uncertainty(shape, scale);
+    const TemplateView& shape = templates[bodies.shape[b]];
+    const double        scale = bodies.scale[b];
     return sample_body_sdf(shape, scale, bodies.position[b], bodies.orientation[b], centre).distance <=
-           furthest + sdf_uncertainty(shape, scale, furthest);
+           bound_within(shape, scale, reach);
 }
 
 /// Whether each body's surface can enter the other's bounding sphere: most pairs whose spheres meet fail this test.
