@@ -20,13 +20,14 @@ namespace tread::shape
 namespace
 {
 
-/// Splits a range of nodes across its longest extent, at a multiple of the cluster size, until each part is one
-/// cluster: more compact clusters than along a space-filling curve.
-void split_into_clusters(const std::vector<Eigen::Vector3d>& positions, std::vector<std::size_t>::iterator first,
-                         std::vector<std::size_t>::iterator last)
+/// Splits a range of nodes across its longest extent, at a multiple of the cluster size until each piece is one
+/// cluster, and at a multiple of the part size until each is a part: more compact than along a space-filling curve.
+void split_into_parts(const std::vector<Eigen::Vector3d>& positions, std::vector<std::size_t>::iterator first,
+                      std::vector<std::size_t>::iterator last)
 {
-    const auto clusters = (last - first + SurfaceNodes::cluster_size - 1) / SurfaceNodes::cluster_size;
-    if (clusters <= 1)
+    const auto size = last - first > SurfaceNodes::cluster_size ? SurfaceNodes::cluster_size : SurfaceNodes::part_size;
+    const auto pieces = (last - first + size - 1) / size;
+    if (pieces <= 1)
     {
         std::sort(first, last);
         return;
@@ -39,15 +40,15 @@ void split_into_clusters(const std::vector<Eigen::Vector3d>& positions, std::vec
     }
     Eigen::Index axis;
     (high - low).maxCoeff(&axis);
-    const auto middle = first + clusters / 2 * SurfaceNodes::cluster_size;
+    const auto middle = first + pieces / 2 * size;
     std::nth_element(first, middle, last,
                      [&](std::size_t one, std::size_t other)
                      { return std::pair(positions[one][axis], one) < std::pair(positions[other][axis], other); });
-    split_into_clusters(positions, first, middle);
-    split_into_clusters(positions, middle, last);
+    split_into_parts(positions, first, middle);
+    split_into_parts(positions, middle, last);
 }
 
-void enclose_cluster(SurfaceNodes& nodes, std::size_t first, std::size_t last)
+void enclose_part(SurfaceNodes& nodes, std::size_t first, std::size_t last)
 {
     Eigen::Vector3d low = nodes.positions[first], high = low;
     for (std::size_t i = first; i < last; ++i)
@@ -58,16 +59,16 @@ void enclose_cluster(SurfaceNodes& nodes, std::size_t first, std::size_t last)
     const Eigen::Vector3d centre = 0.5 * (low + high);
     double                radius = 0;
     for (std::size_t i = first; i < last; ++i) { radius = std::max(radius, (nodes.positions[i] - centre).norm()); }
-    nodes.cluster_centres.push_back(centre);
-    nodes.cluster_radii.push_back(radius);
+    nodes.part_centres.push_back(centre);
+    nodes.part_radii.push_back(radius);
 }
 
-/// Orders the nodes into clusters and computes the bounding sphere of each.
-SurfaceNodes cluster(const std::vector<Eigen::Vector3d>& positions, const std::vector<double>& areas)
+/// Orders the nodes into clusters and their parts, and computes the bounding sphere of each part.
+SurfaceNodes order_nodes(const std::vector<Eigen::Vector3d>& positions, const std::vector<double>& areas)
 {
     std::vector<std::size_t> order(positions.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    split_into_clusters(positions, order.begin(), order.end());
+    split_into_parts(positions, order.begin(), order.end());
 
     SurfaceNodes nodes;
     double       area = 0;
@@ -78,16 +79,16 @@ SurfaceNodes cluster(const std::vector<Eigen::Vector3d>& positions, const std::v
         area += areas[at];
     }
     nodes.spacing = std::sqrt(area / static_cast<double>(order.size()));
-    for (std::size_t first = 0; first < order.size(); first += SurfaceNodes::cluster_size)
+    for (std::size_t first = 0; first < order.size(); first += SurfaceNodes::part_size)
     {
-        enclose_cluster(nodes, first, std::min(first + SurfaceNodes::cluster_size, order.size()));
+        enclose_part(nodes, first, std::min(first + SurfaceNodes::part_size, order.size()));
     }
     return nodes;
 }
 
 } // namespace
 
-SurfaceNodes nodes_at_vertices(const TriangleMesh& mesh) { return cluster(mesh.vertices, vertex_areas(mesh)); }
+SurfaceNodes nodes_at_vertices(const TriangleMesh& mesh) { return order_nodes(mesh.vertices, vertex_areas(mesh)); }
 
 SurfaceNodes resample_to_count(const TriangleMesh& mesh, int count)
 {
@@ -104,7 +105,7 @@ SurfaceNodes resample_to_count(const TriangleMesh& mesh, int count)
     positions.reserve(places.size());
     for (const std::size_t place : places) { positions.push_back(samples.positions[place]); }
     for (std::size_t i = 0; i < owners.size(); ++i) { areas[owners[i]] += samples.areas[i]; }
-    return cluster(positions, areas);
+    return order_nodes(positions, areas);
 }
 
 SurfaceNodes resample(const TriangleMesh& mesh, double spacing)

@@ -25,14 +25,14 @@ SurfaceNodes on_sphere(SurfaceNodes nodes, const TriangleMesh& mesh)
     const double ratio = std::numbers::pi / surface_area(mesh);
     for (double& area : nodes.areas) { area *= ratio; }
     for (Eigen::Vector3d& position : nodes.positions) { position *= 0.5 / position.norm(); }
-    // A node on a facet moves out by at most the depth of the facet below the sphere: its cluster's sphere grows by
+    // A node on a facet moves out by at most the depth of the facet below the sphere: its part's sphere grows by
     // that.
     double moved = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     {
         moved = std::max(moved, 0.5 - area_vector(mesh, t).normalized().dot(corner(mesh, t, 0)));
     }
-    for (double& radius : nodes.cluster_radii) { radius += moved; }
+    for (double& radius : nodes.part_radii) { radius += moved; }
     nodes.spacing *= std::sqrt(ratio);
     return nodes;
 }

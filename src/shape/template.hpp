@@ -45,15 +45,16 @@ struct SignedDistanceGrid
 };
 
 /// Surface nodes that carry contact traction; areas sum to the surface's area. Ordered so that each run of cluster_size
-/// nodes (the last may be shorter) is compact and lies within its bounding sphere.
+/// nodes, a cluster, is compact, and each run of part_size within it, which has a bounding sphere (the last may be
+/// shorter).
 struct SurfaceNodes
 {
-    static constexpr int cluster_size = 32;
+    static constexpr int cluster_size = 32, part_size = 8;
 
     std::vector<Eigen::Vector3d> positions; ///< body frame
     std::vector<double>          areas;     ///< m2, tributary
-    std::vector<Eigen::Vector3d> cluster_centres;
-    std::vector<double>          cluster_radii;
+    std::vector<Eigen::Vector3d> part_centres;
+    std::vector<double>          part_radii;
     double                       spacing; ///< m, sqrt(area / count)
 };
 

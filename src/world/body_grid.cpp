@@ -25,14 +25,14 @@ bool nodes_clear(const World& world, std::size_t one, std::size_t other, double 
     // Far from the surface the interpolant of a 1-Lipschitz distance may have an error of a fraction of its cell, or
     // brick.
     const double slack = sdf.spacing * (sdf.slots.empty() ? 1 : shape::SignedDistanceGrid::brick_cells);
-    for (std::size_t cluster = 0; cluster < nodes.cluster_centres.size(); ++cluster)
+    for (std::size_t part = 0; part < nodes.part_centres.size(); ++part)
     {
-        const Vec3<double> centre = turn * nodes.cluster_centres[cluster] + shift;
-        const double       radius = nodes.cluster_radii[cluster] * scale * inverse;
+        const Vec3<double> centre = turn * nodes.part_centres[part] + shift;
+        const double       radius = nodes.part_radii[part] * scale * inverse;
         if (centre.squaredNorm() > std::pow(beyond + radius, 2)) { continue; }
         if (shape::sample(sdf, centre) > needed + radius + slack) { continue; }
-        const std::size_t first = cluster * shape::SurfaceNodes::cluster_size;
-        const std::size_t end   = std::min(first + shape::SurfaceNodes::cluster_size, nodes.positions.size());
+        const std::size_t first = part * shape::SurfaceNodes::part_size;
+        const std::size_t end   = std::min(first + shape::SurfaceNodes::part_size, nodes.positions.size());
         for (std::size_t node = first; node < end; ++node)
         {
             const Vec3<double> x = turn * nodes.positions[node] + shift;

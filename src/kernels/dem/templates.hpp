@@ -28,11 +28,11 @@ struct TemplateView
 {
     SdfGridView         sdf;
     std::int32_t        node_count;
-    std::int32_t        cluster_count;
+    std::int32_t        part_count;
     const Vec3<double>* node_positions;
     const double*       node_areas;
-    const Vec3<double>* cluster_centres; ///< one centre per 32 nodes, in their order
-    const double*       cluster_radii;
+    const Vec3<double>* part_centres; ///< of bounding spheres, one per eight nodes, in their order
+    const double*       part_radii;
     Vec3<double>        low; ///< bounding box
     Vec3<double>        high;
     double              bounding_radius;

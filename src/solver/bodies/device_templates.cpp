@@ -34,7 +34,7 @@ dem::TemplateView measures(const shape::ShapeTemplate& form)
     view.sdf.bricks[2]       = form.sdf.bricks[2];
     view.sdf.fine_reach      = form.sdf.fine_reach;
     view.node_count          = static_cast<std::int32_t>(form.nodes.positions.size());
-    view.cluster_count       = static_cast<std::int32_t>(form.nodes.cluster_centres.size());
+    view.part_count          = static_cast<std::int32_t>(form.nodes.part_centres.size());
     view.low                 = form.box.low;
     view.high                = form.box.high;
     view.bounding_radius     = form.bounding_radius;
@@ -53,13 +53,13 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
     , sdf_corners_(exec, "template sdf corners")
     , node_positions_(exec, "template nodes")
     , node_areas_(exec, "template node areas")
-    , cluster_centres_(exec, "template clusters")
-    , cluster_radii_(exec, "template cluster radii")
+    , part_centres_(exec, "template node parts")
+    , part_radii_(exec, "template part radii")
     , views_(exec, "templates")
 {
     struct Start
     {
-        std::size_t sdf, slot, corner, node, cluster;
+        std::size_t sdf, slot, corner, node, part;
     };
     std::vector<float>        sdf, corners;
     std::vector<std::int32_t> slots;
@@ -70,17 +70,17 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
     {
         starts.push_back({append(sdf, form.sdf.values), append(slots, form.sdf.slots),
                           append(corners, form.sdf.corners), append(positions, form.nodes.positions),
-                          append(centres, form.nodes.cluster_centres)});
+                          append(centres, form.nodes.part_centres)});
         append(areas, form.nodes.areas);
-        append(radii, form.nodes.cluster_radii);
+        append(radii, form.nodes.part_radii);
     }
     sdf_values_.assign(sdf);
     sdf_slots_.assign(slots);
     sdf_corners_.assign(corners);
     node_positions_.assign(positions);
     node_areas_.assign(areas);
-    cluster_centres_.assign(centres);
-    cluster_radii_.assign(radii);
+    part_centres_.assign(centres);
+    part_radii_.assign(radii);
 
     std::vector<dem::TemplateView> views;
     views.reserve(templates.size());
@@ -92,8 +92,8 @@ DeviceTemplates<Exec>::DeviceTemplates(const Exec& exec, const std::vector<shape
         view.sdf.corners       = sdf_corners_.data() + starts[t].corner;
         view.node_positions    = node_positions_.data() + starts[t].node;
         view.node_areas        = node_areas_.data() + starts[t].node;
-        view.cluster_centres   = cluster_centres_.data() + starts[t].cluster;
-        view.cluster_radii     = cluster_radii_.data() + starts[t].cluster;
+        view.part_centres      = part_centres_.data() + starts[t].part;
+        view.part_radii        = part_radii_.data() + starts[t].part;
         views.push_back(view);
     }
     views_.assign(views);

@@ -28,8 +28,8 @@ private:
     Array<Exec, float>             sdf_corners_;
     Array<Exec, Vec3<double>>      node_positions_;
     Array<Exec, double>            node_areas_;
-    Array<Exec, Vec3<double>>      cluster_centres_;
-    Array<Exec, double>            cluster_radii_;
+    Array<Exec, Vec3<double>>      part_centres_;
+    Array<Exec, double>            part_radii_;
     Array<Exec, dem::TemplateView> views_;
     bool                           concave_ = false;
 };

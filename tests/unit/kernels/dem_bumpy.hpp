@@ -62,8 +62,8 @@ public:
         found.values            = sdf_.values;
         found.positions         = surface.positions;
         found.areas             = surface.areas;
-        found.centres           = surface.cluster_centres;
-        found.radii             = surface.cluster_radii;
+        found.centres           = surface.part_centres;
+        found.radii             = surface.part_radii;
         found.half              = half_;
         found.bounding_radius   = bounding_radius_;
         found.equivalent_radius = std::cbrt(0.75 * mass_.volume / std::numbers::pi);

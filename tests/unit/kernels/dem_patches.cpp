@@ -61,7 +61,7 @@ SolidShape channel()
         add_face(shape, {0.65 * side, 0, 0.5}, {0.3, 0, 0}, {0, 1, 0}, 12);
     }
     add_face(shape, {0, 0, -0.5}, {1, 0, 0}, {0, 1, 0}, 12);
-    make_clusters(shape);
+    enclose_parts(shape);
     return shape;
 }
 
@@ -75,7 +75,7 @@ SolidShape groove()
     shape.concave           = true;
     sample_on_grid(shape, 96, [](const Vec3<double>& x) { return (x[2] - std::abs(x[0])) / std::sqrt(2.0); });
     for (const double side : {-1.0, 1.0}) { add_face(shape, {0.5 * side, 0, 0.5}, {side, 0, 1}, {0, 1.4, 0}, 24); }
-    make_clusters(shape);
+    enclose_parts(shape);
     return shape;
 }
 
@@ -175,7 +175,7 @@ SolidShape diamond()
     {
         add_face(shape, {side * out, 0, -out}, {side * wide, 0, wide}, {0, 1.4, 0}, 16);
     }
-    make_clusters(shape);
+    enclose_parts(shape);
     return shape;
 }
 

@@ -26,8 +26,8 @@ inline SolidShape solid_of(const shape::ShapeTemplate& form)
     solid.fine_reach        = form.sdf.fine_reach;
     solid.positions         = form.nodes.positions;
     solid.areas             = form.nodes.areas;
-    solid.centres           = form.nodes.cluster_centres;
-    solid.radii             = form.nodes.cluster_radii;
+    solid.centres           = form.nodes.part_centres;
+    solid.radii             = form.nodes.part_radii;
     solid.half              = form.box.low.cwiseAbs().cwiseMax(form.box.high.cwiseAbs());
     solid.bounding_radius   = form.bounding_radius;
     solid.equivalent_radius = form.equivalent_radius;

@@ -186,11 +186,11 @@ private:
             view.sdf.fine_reach = shape.fine_reach;
             std::copy(shape.bricks.begin(), shape.bricks.end(), view.sdf.bricks);
             view.node_count        = static_cast<std::int32_t>(shape.positions.size());
-            view.cluster_count     = static_cast<std::int32_t>(shape.centres.size());
+            view.part_count        = static_cast<std::int32_t>(shape.centres.size());
             view.node_positions    = keep(vectors_, shape.positions);
             view.node_areas        = keep(doubles_, shape.areas);
-            view.cluster_centres   = keep(vectors_, shape.centres);
-            view.cluster_radii     = keep(doubles_, shape.radii);
+            view.part_centres      = keep(vectors_, shape.centres);
+            view.part_radii        = keep(doubles_, shape.radii);
             view.low               = -shape.half;
             view.high              = shape.half;
             view.bounding_radius   = shape.bounding_radius;

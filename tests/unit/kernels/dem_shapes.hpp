@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "backend/vector.hpp"
+#include "kernels/dem/contact/body_field_kern.hpp"
 
 // Analytic shapes as templates of bodies, for tests of body-body contact.
 namespace tread::test
@@ -29,7 +30,7 @@ struct SolidShape
     double                      steepest   = std::numbers::sqrt3; ///< upper bound on the slope of the interpolant
     std::vector<Vec3<double>>   positions;
     std::vector<double>         areas;
-    std::vector<Vec3<double>>   centres; ///< of clusters
+    std::vector<Vec3<double>>   centres; ///< of parts of clusters
     std::vector<double>         radii;
     Vec3<double>                half              = Vec3<double>::Zero();
     double                      bounding_radius   = 0;
@@ -61,10 +62,10 @@ void sample_on_grid(SolidShape& shape, int cells, Distance distance)
     }
 }
 
-/// Groups nodes into runs of 32 in the given order, which must be spatially local.
-inline void make_clusters(SolidShape& shape)
+/// Encloses the nodes of each part, in the given order, which must be spatially local.
+inline void enclose_parts(SolidShape& shape)
 {
-    constexpr std::size_t size = 32;
+    constexpr std::size_t size = dem::part_size;
     for (std::size_t first = 0; first < shape.positions.size(); first += size)
     {
         const std::size_t last   = std::min(first + size, shape.positions.size());
@@ -138,7 +139,7 @@ inline SolidShape unit_sphere(int level, int cells)
         shape.positions.push_back(position);
         shape.areas.push_back(area);
     }
-    make_clusters(shape);
+    enclose_parts(shape);
     return shape;
 }
 
@@ -176,7 +177,7 @@ inline SolidShape box_solid(const Vec3<double>& half, int n, int cells)
         }
     }
     shape.areas.assign(shape.positions.size(), area / static_cast<double>(shape.positions.size()));
-    make_clusters(shape);
+    enclose_parts(shape);
     return shape;
 }
 

@@ -27,15 +27,15 @@ double nearest_distance(const SurfaceNodes& nodes, const Vector3d& point)
     return least;
 }
 
-void expect_clusters_enclose(const SurfaceNodes& nodes)
+void expect_parts_enclose(const SurfaceNodes& nodes)
 {
     const std::size_t count = nodes.positions.size();
     ASSERT_EQ(nodes.areas.size(), count);
-    ASSERT_EQ(nodes.cluster_centres.size(), (count + SurfaceNodes::cluster_size - 1) / SurfaceNodes::cluster_size);
+    ASSERT_EQ(nodes.part_centres.size(), (count + SurfaceNodes::part_size - 1) / SurfaceNodes::part_size);
     for (std::size_t i = 0; i < count; ++i)
     {
-        const std::size_t c = i / SurfaceNodes::cluster_size;
-        ASSERT_LE((nodes.positions[i] - nodes.cluster_centres[c]).norm(), nodes.cluster_radii[c] * (1 + 1e-12));
+        const std::size_t c = i / SurfaceNodes::part_size;
+        ASSERT_LE((nodes.positions[i] - nodes.part_centres[c]).norm(), nodes.part_radii[c] * (1 + 1e-12));
     }
 }
 
@@ -46,18 +46,39 @@ TEST(SurfaceNodes, VerticesShareTheArea)
     EXPECT_EQ(nodes.positions.size(), 642u);
     EXPECT_NEAR(total(nodes.areas), surface_area(mesh), 1e-12);
     EXPECT_DOUBLE_EQ(nodes.spacing, std::sqrt(total(nodes.areas) / 642));
-    expect_clusters_enclose(nodes);
+    expect_parts_enclose(nodes);
 }
 
-TEST(SurfaceNodes, ClustersAreCompact)
+/// Mean over runs of `size` nodes of the furthest from the middle of their box, in spacings.
+double mean_radius(const SurfaceNodes& nodes, std::size_t size)
+{
+    std::vector<double> radii;
+    for (std::size_t first = 0; first + size <= nodes.positions.size(); first += size)
+    {
+        Eigen::AlignedBox3d box;
+        for (std::size_t i = first; i < first + size; ++i) { box.extend(nodes.positions[i]); }
+        radii.push_back(0);
+        for (std::size_t i = first; i < first + size; ++i)
+        {
+            radii.back() = std::max(radii.back(), (nodes.positions[i] - box.center()).norm());
+        }
+    }
+    return total(radii) / static_cast<double>(radii.size()) / nodes.spacing;
+}
+
+TEST(SurfaceNodes, ClustersAndTheirPartsAreCompact)
 {
     const SurfaceNodes nodes = nodes_at_vertices(icosphere(2562, "sphere"));
-    const double       mean  = total(nodes.cluster_radii) / static_cast<double>(nodes.cluster_radii.size());
-    // Clusters of 32 nodes have a circumscribed radius of 3.2 spacings as a disc, 4.0 as a square, and 4.5 as a
-    // rectangle of 1 : 2, the longest that bisection across the longest extent leaves.
-    std::printf("mean cluster radius: measured %.2f spacings; square 4.0, rectangle of 1 : 2 4.5, bound 5\n",
-                mean / nodes.spacing);
-    EXPECT_LT(mean, 5 * nodes.spacing);
+    for (const int size : {SurfaceNodes::cluster_size, SurfaceNodes::part_size})
+    {
+        // The circumscribed radius of so many nodes as a square, and as a rectangle of 1 : 2, the longest that
+        // bisection across the longest extent leaves.
+        const double square = std::sqrt(0.5 * size), rectangle = std::sqrt(0.625 * size), bound = 1.12 * rectangle;
+        const double radius = mean_radius(nodes, static_cast<std::size_t>(size));
+        std::printf("%d nodes: mean radius %.2f spacings; square %.2f, rectangle of 1 : 2 %.2f, bound %.2f\n", size,
+                    radius, square, rectangle, bound);
+        EXPECT_LT(radius, bound);
+    }
 }
 
 double coefficient_of_variation(const std::vector<double>& values)
@@ -121,7 +142,7 @@ TEST(SurfaceNodes, AreAsManyAsAskedAndNearUniform)
         EXPECT_LT(coefficient_of_variation(nodes.areas), c.variation);
         EXPECT_GT(mean, 0.65 * nodes.spacing);
         EXPECT_GT(least, 0.3 * nodes.spacing);
-        expect_clusters_enclose(nodes);
+        expect_parts_enclose(nodes);
     }
 }
 

@@ -89,10 +89,10 @@ TEST(Template, NodesOfASphereFollowTheSpacingThatIsAskedFor)
     EXPECT_NEAR(total(made.nodes.areas), test::pi, 1e-12);
     for (std::size_t i = 0; i < made.nodes.positions.size(); ++i)
     {
-        const std::size_t cluster = i / SurfaceNodes::cluster_size;
-        const auto&       node    = made.nodes.positions[i];
+        const std::size_t part = i / SurfaceNodes::part_size;
+        const auto&       node = made.nodes.positions[i];
         EXPECT_NEAR(node.norm(), 0.5, 1e-12);
-        EXPECT_LE((node - made.nodes.cluster_centres[cluster]).norm(), made.nodes.cluster_radii[cluster] + 1e-12);
+        EXPECT_LE((node - made.nodes.part_centres[part]).norm(), made.nodes.part_radii[part] + 1e-12);
     }
 }
 

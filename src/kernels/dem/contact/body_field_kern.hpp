@@ -140,7 +140,8 @@ struct OneLane
     TREAD_HD double        from(std::int32_t, double value) const { return value; } ///< value of another lane
 };
 
-inline constexpr std::int32_t cluster_size = 32; ///< nodes per cluster, as in shape::SurfaceNodes
+/// Nodes of a cluster and of each of its parts, as in shape::SurfaceNodes.
+inline constexpr std::int32_t cluster_size = 32, part_size = 8;
 
 template<class Field>
 TREAD_HD NodeInField in_field(const Side<Field>& side, std::int32_t i)

@@ -118,22 +118,37 @@ private:
         second
     };
 
+    /// Returns which of `count` parts from `first` have nodes that may enter, a bit each.
+    template<class Lanes>
+    TREAD_HD static std::uint32_t near_parts(const NearNodes& side, std::int32_t first, std::int32_t count,
+                                             const Lanes& lanes)
+    {
+        std::uint32_t near = 0;
+        for (std::int32_t bit = lanes.lane(); bit < count; bit += lanes.lanes())
+        {
+            const std::int32_t part = first + bit;
+            near |= lanes.vote(part < side.shape->part_count && side.has_part(part)) << (bit - lanes.lane());
+        }
+        return near;
+    }
+
     template<class Lanes, class Take>
     TREAD_HD static void walk(const NearNodes& side, Owner owner, const Lanes& lanes, Take& take)
     {
-        const std::int32_t clusters = side.shape->cluster_count, nodes = side.shape->node_count;
-        for (std::int32_t base = 0; base < clusters; base += lanes.lanes())
+        constexpr std::int32_t parts = cluster_size / part_size; // of a cluster
+        const std::int32_t     nodes = side.shape->node_count, step = lanes.lanes() < parts ? 1 : lanes.lanes() / parts;
+        for (std::int32_t base = 0; base * cluster_size < nodes; base += step)
         {
-            const std::int32_t own  = base + lanes.lane();
-            std::uint32_t      near = lanes.vote(own < clusters && side.has_cluster(own));
-            for (std::int32_t cluster = base; near != 0; ++cluster, near >>= 1)
+            std::uint32_t near = near_parts(side, base * parts, step * parts, lanes);
+            for (std::int32_t cluster = base; near != 0; ++cluster, near >>= parts)
             {
-                if ((near & 1u) == 0) { continue; }
+                if ((near & first_bits(parts)) == 0) { continue; }
                 std::uint32_t all = 0;
-                for (std::int32_t bit = 0; bit < cluster_size; bit += lanes.lanes())
+                for (std::int32_t bit = lanes.lane(); bit < cluster_size; bit += lanes.lanes())
                 {
-                    const std::int32_t i = cluster * cluster_size + bit + lanes.lane();
-                    all |= lanes.vote(i < nodes && side.has_node(i)) << bit;
+                    const std::int32_t i       = cluster * cluster_size + bit;
+                    const bool         in_part = (near >> bit / part_size & 1u) != 0;
+                    all |= lanes.vote(in_part && i < nodes && side.has_node(i)) << (bit - lanes.lane());
                 }
                 if (all != 0) { take(NearCluster{owner == Owner::first ? cluster : ~cluster, all}, lanes); }
             }

@@ -71,11 +71,11 @@ struct NearNodes
     Vec3<float>         last{0, 0, 0}; ///< node of the field's grid
     float               square = 0;    ///< m2, of its spacing
 
-    /// Returns false only if no node of the cluster may enter (the distance of the other body has slope 1).
-    TREAD_HD bool has_cluster(std::int32_t cluster) const
+    /// Returns false only if no node of the part may enter (the distance of the other body has slope 1).
+    TREAD_HD bool has_part(std::int32_t part) const
     {
-        const double reach = placed.scale * shape->cluster_radii[cluster] + placed.way;
-        return is_near(shape->cluster_centres[cluster],
+        const double reach = placed.scale * shape->part_radii[part] + placed.way;
+        return is_near(shape->part_centres[part],
                        static_cast<float>(field == nullptr ? reach : bound_within(*field, 1, reach)));
     }
 
