@@ -25,7 +25,7 @@ namespace
 
 constexpr const char*                 mark       = "tread checkpoint";
 constexpr const char*                 first_rows = "first_row"; ///< attribute of each data set
-constexpr std::array<std::int64_t, 2> schema{6, 0};             ///< a reader refuses another first number
+constexpr std::array<std::int64_t, 2> schema{7, 0};             ///< a reader refuses another first number
 constexpr std::int64_t                head_bytes = 512;
 
 struct Head
