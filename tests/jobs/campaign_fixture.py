@@ -57,6 +57,8 @@ class CampaignTest(unittest.TestCase):
         if command in ("expand", "submit", "local", "retry") and program:
             arguments += ["--tread", str(program)]
         environment = {**os.environ, "PATH": path if path is not None else os.environ["PATH"]}
+        if command == "expand":  # starts programs alone, side by side (tread_alone in tests/CMakeLists.txt)
+            environment["OMPI_MCA_orte_create_session_dirs"] = "0"
         done = subprocess.run(arguments, cwd=self.directory, env=environment, capture_output=True, text=True, timeout=250, check=False)
         self.assertNotIn("Traceback", done.stderr)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
