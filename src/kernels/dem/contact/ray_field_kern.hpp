@@ -15,7 +15,7 @@ namespace tread::dem
 /// A body as seen by the rays of the other body's nodes.
 struct RayField
 {
-    BodyField      solid; ///< selects the clusters of nodes that are near
+    BodyField      solid; ///< tells which nodes are near
     const RayView* own;   ///< of the body that owns the nodes
     const RayView* other;
 
