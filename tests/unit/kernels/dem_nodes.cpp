@@ -94,8 +94,7 @@ void compare(const dem::Side<Field>& side, const dem::TemplateView* other, doubl
 
 /// Nodes are found in single precision: none is missing that double precision finds, those too many are nearer to their
 /// bound than twice what it was raised by, and no part is left out with a node that enters when it moves straight.
-/// Bodies of unlike size touch each other and a wall anywhere, 1 km from
-/// the origin.
+/// Bodies of unlike size touch each other and a wall anywhere, 1 km from the origin.
 TEST(NearNodes, AreThoseOfDoublePrecisionAndFewMore)
 {
     const BumpyBody body(40);

@@ -73,7 +73,8 @@ TEST(SurfaceNodes, ClustersAndTheirPartsAreCompact)
     {
         // The circumscribed radius of so many nodes as a square, and as a rectangle of 1 : 2, the longest that
         // bisection across the longest extent leaves.
-        const double square = std::sqrt(0.5 * size), rectangle = std::sqrt(0.625 * size), bound = 1.12 * rectangle;
+        const double square = std::sqrt(0.5 * size), rectangle = std::sqrt(0.625 * size);
+        const double bound  = std::sqrt(0.78125 * size); // 5 spacings for 32 nodes
         const double radius = mean_radius(nodes, static_cast<std::size_t>(size));
         std::printf("%d nodes: mean radius %.2f spacings; square %.2f, rectangle of 1 : 2 %.2f, bound %.2f\n", size,
                     radius, square, rectangle, bound);
